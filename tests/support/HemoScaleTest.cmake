@@ -1,0 +1,15 @@
+# hemoscale_test(NAME name LABEL label SOURCES file... [LIBRARIES target...] [TIMEOUT seconds])
+# One GoogleTest executable whose cases become tests "label.Suite.case" with that label.
+function(hemoscale_test)
+  cmake_parse_arguments(T "" "NAME;LABEL;TIMEOUT" "SOURCES;LIBRARIES" ${ARGN})
+  if(NOT T_TIMEOUT)
+    set(T_TIMEOUT 120)
+  endif()
+  add_executable(${T_NAME} ${T_SOURCES})
+  set_target_properties(${T_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  target_link_libraries(${T_NAME} PRIVATE ${T_LIBRARIES} hemoscale_options GTest::gtest_main GTest::gmock)
+  target_compile_definitions(${T_NAME} PRIVATE HEMOSCALE_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+    HEMOSCALE_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  gtest_discover_tests(${T_NAME} TEST_PREFIX "${T_LABEL}." DISCOVERY_MODE PRE_TEST
+    PROPERTIES LABELS ${T_LABEL} TIMEOUT ${T_TIMEOUT})
+endfunction()

@@ -1,0 +1,15 @@
+# Rules of the project that no compiler checks.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+foreach(rule include_direction text_rules)
+  add_test(NAME lint.${rule} COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/lint/${rule}.py ${CMAKE_SOURCE_DIR})
+  add_test(NAME lint.${rule}.self_test
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/lint/${rule}.py --self-test)
+  set_tests_properties(lint.${rule} lint.${rule}.self_test PROPERTIES LABELS lint TIMEOUT 60)
+endforeach()
+
+find_program(HEMOSCALE_CLANG_FORMAT NAMES clang-format-14)
+if(HEMOSCALE_CLANG_FORMAT)
+  add_test(NAME lint.format COMMAND sh -c
+    "git ls-files '*.hpp' '*.cpp' | xargs '${HEMOSCALE_CLANG_FORMAT}' --dry-run -Werror")
+  set_tests_properties(lint.format PROPERTIES LABELS lint TIMEOUT 60 WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+endif()
