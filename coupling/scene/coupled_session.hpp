@@ -15,13 +15,13 @@ namespace hemoscale::coupling {
 
 /// What happened in one pass of the coupled loop.
 struct PassReport {
-  int pass = 0;                    // 1-based, over the whole run
-  double time = 0;                 // [s] of the macro flow
-  double change = 0;               // [-] convergence measure: weighted rms change of log viscosity
-  double relaxation = 0;           // [-] factor that was used
-  int micro_runs = 0;              // [-] in this pass
-  double lowest_viscosity = 0;     // [Pa s] of the law over its knots
-  double highest_viscosity = 0;    // [Pa s]
+  int pass = 0;                  // 1-based, over the whole run
+  double time = 0;               // [s] of the macro flow
+  double change = 0;             // [-] convergence measure: weighted rms change of log viscosity
+  double relaxation = 0;         // [-] factor that was used
+  int micro_runs = 0;            // [-] in this pass
+  double lowest_viscosity = 0;   // [Pa s] of the law over its knots
+  double highest_viscosity = 0;  // [Pa s]
   bool converged = false;
 };
 
@@ -44,9 +44,9 @@ class CoupledSession {
 
   /// The law that holds now: that of the checkpoint, or the case's initial law.
   const macro::ViscosityLaw& law() const;
-  double hematocrit() const;                 // [-]
-  double density() const;                    // [kg/m^3] of blood, for kinematic quantities
-  const Settings::Points& points() const;    // [m] where the flow is sampled
+  double hematocrit() const;               // [-]
+  double density() const;                  // [kg/m^3] of blood, for kinematic quantities
+  const Settings::Points& points() const;  // [m] where the flow is sampled
 
   /// One window of the explicit scheme on the flow of the host.
   PassReport advance(const macro::FlowField<3>& flow, const macro::Window& window);

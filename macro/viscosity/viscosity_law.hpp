@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "macro/viscosity/carreau_yasuda.hpp"
@@ -18,11 +20,23 @@ namespace hemoscale::macro {
 ///
 /// C++17-clean: the OpenFOAM viscosity model includes it.
 class ViscosityLaw {
+  template <typename One, typename Variant>
+  struct IsAlternative : std::false_type {};
+  template <typename One, typename... All>
+  struct IsAlternative<One, std::variant<All...>> : std::disjunction<std::is_same<One, All>...> {};
+
  public:
   using Model =
       std::variant<Newtonian, CarreauYasuda, Casson, Cross, PowerLaw, Quemada, ViscosityTable>;
 
+  /// @throws ParameterError naming the first parameter that is not admissible
   ViscosityLaw(Model model);  // NOLINT(google-explicit-constructor): every model is a law
+
+  /// The same from one of the models, so that `ViscosityLaw law = Newtonian{1.2e-3}` is one step.
+  template <typename One,
+            typename = std::enable_if_t<IsAlternative<std::decay_t<One>, Model>::value>>
+  ViscosityLaw(One&& model)  // NOLINT(google-explicit-constructor)
+      : ViscosityLaw(Model(std::forward<One>(model))) {}
 
   /// @param shear_rate  sqrt(2 D:D), not negative [1/s]
   /// @param hematocrit  volume fraction of red cells [-]

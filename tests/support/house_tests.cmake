@@ -1,9 +1,11 @@
 # Rules of the project that no compiler checks.
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
+# The interpreter for which Debian packages numpy and h5py, whatever else is on the PATH.
+find_program(HEMOSCALE_PYTHON NAMES python3 HINTS /usr/bin NO_DEFAULT_PATH)
+find_program(HEMOSCALE_PYTHON NAMES python3 REQUIRED)
 foreach(rule include_direction text_rules)
-  add_test(NAME lint.${rule} COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/lint/${rule}.py ${CMAKE_SOURCE_DIR})
+  add_test(NAME lint.${rule} COMMAND ${HEMOSCALE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/lint/${rule}.py ${CMAKE_SOURCE_DIR})
   add_test(NAME lint.${rule}.self_test
-    COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/lint/${rule}.py --self-test)
+    COMMAND ${HEMOSCALE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/lint/${rule}.py --self-test)
   set_tests_properties(lint.${rule} lint.${rule}.self_test PROPERTIES LABELS lint TIMEOUT 60)
 endforeach()
 

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupling/config/parameter_table.hpp"
+
+// The parameter table is written down in four files, one function each; parameter_table() joins
+// them. Nothing but parameter_table.cpp calls these.
+namespace hemoscale::coupling {
+
+/// case, scene, fluid, output.
+std::vector<Parameter> case_parameters();
+std::vector<Parameter> output_parameters();
+
+/// macro, and the law that holds before any micro run.
+std::vector<Parameter> macro_parameters();
+
+/// sampling, coupling.
+std::vector<Parameter> loop_parameters();
+
+/// micro.
+std::vector<Parameter> micro_parameters();
+
+/// The parameters of every viscosity law under `section`, e.g. "law" gives "law.casson.viscosity".
+/// Those of a law apply when `chooser` names it.
+std::vector<Parameter> law_parameters(const std::string& section, const std::string& chooser);
+
+/// The names that a chooser of laws accepts.
+std::vector<std::string> law_names();
+
+inline Range above(double lowest) {
+  return {.lowest = lowest, .lowest_allowed = false};
+}
+inline Range at_least(double lowest) {
+  return {.lowest = lowest};
+}
+inline Range between(double lowest, double highest) {
+  return {.lowest = lowest, .highest = highest};
+}
+
+}  // namespace hemoscale::coupling

@@ -1,0 +1,112 @@
+#include "coupling/scene/case_checks.hpp"
+
+#include <fmt/format.h>
+
+#include "coupling/error.hpp"
+#include "coupling/scene/build_law.hpp"
+#include "coupling/scene/build_loop.hpp"
+#include "coupling/scene/build_micro.hpp"
+#include "macro/error.hpp"
+#include "micro/ensemble/step_limit.hpp"
+#include "micro/error.hpp"
+
+namespace hemoscale::coupling {
+
+namespace {
+
+class FaultList {
+ public:
+  explicit FaultList(const Settings& settings) : settings_(settings) {}
+
+  void add(const std::string& key, const std::string& message) {
+    const Location place = settings_.location(key);
+    faults.push_back({place.file, place.line, place.column, key, message});
+  }
+
+  /// Runs a builder; what it complains of becomes a fault of that key.
+  template <class Builder>
+  void attempt(const std::string& key, const Builder& build) {
+    try {
+      build();
+    } catch (const CaseError& error) {
+      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+    } catch (const micro::ParameterError& error) {
+      add(key, error.what());
+    } catch (const macro::ParameterError& error) {
+      add(key, error.what());
+    }
+  }
+
+  std::vector<Fault> faults;
+
+ private:
+  const Settings& settings_;
+};
+
+void check_ensemble(const Settings& settings, bool force, FaultList& list) {
+  list.attempt("micro.model", [&] {
+    const micro::EnsembleParameters parameters = build_ensemble_parameters(settings, 1, force);
+    const micro::StepLimit limit = micro::step_limit(parameters);
+    if (parameters.time_step && !parameters.force && *parameters.time_step > limit.time_step) {
+      list.add("micro.time_step",
+               fmt::format(
+                   "{:.4g} s exceeds the limit of the explicit scheme, {:.4g} s = 2 zeta / "
+                   "lambda_max (zeta {:.4g} Pa s, lambda_max {:.4g} Pa: ring {:.4g}, contact "
+                   "{:.4g}, wall {:.4g}); reduce it, leave the key out (0.8 of the limit is "
+                   "then taken), or use fewer nodes per cell; --force runs anyway",
+                   *parameters.time_step, limit.time_step, limit.drag,
+                   limit.ring + limit.contact + limit.wall, limit.ring, limit.contact, limit.wall));
+    }
+  });
+}
+
+}  // namespace
+
+std::vector<Fault> find_faults(const Settings& settings, bool force) {
+  FaultList list(settings);
+  if (settings.text("micro.model") == "ensemble") check_ensemble(settings, force, list);
+  if (settings.text("scene.kind") == "micro") {
+    if (settings.text("micro.model") == "synthetic") {
+      list.add(
+          "micro.model",
+          "\"synthetic\" has no scene of its own; use \"ensemble\", or scene.kind = \"coupled\"");
+    }
+    return list.faults;
+  }
+  if (settings.text("micro.domain") != "shear-box") {
+    list.add("micro.domain",
+             "a coupled scene measures viscosity in homogeneous shear; use \"shear-box\", or "
+             "scene.kind = \"micro\" for a channel alone");
+  }
+  list.attempt("law.initial", [&] { build_law(settings, "law.initial", "law"); });
+  if (settings.text("micro.model") == "synthetic") {
+    list.attempt("micro.synthetic.law",
+                 [&] { build_law(settings, "micro.synthetic.law", "micro.synthetic"); });
+  }
+  if (settings.quantity("coupling.highest_relative_viscosity") <=
+      settings.quantity("coupling.lowest_relative_viscosity")) {
+    list.add("coupling.highest_relative_viscosity",
+             fmt::format("{:g} does not exceed coupling.lowest_relative_viscosity = {:g}; raise it",
+                         settings.quantity("coupling.highest_relative_viscosity"),
+                         settings.quantity("coupling.lowest_relative_viscosity")));
+  }
+  if (settings.text("macro.model") == "channel") {
+    list.attempt("macro.channel.height", [&] {
+      build_channel(settings);
+      channel_points(settings);
+    });
+  } else if (!settings.has("sampling.points")) {
+    list.add(
+        "sampling.points",
+        "is needed with macro.model = \"openfoam\": give the points at which the flow is sampled, "
+        "for instance [[\"50 um\", \"10 um\", \"0.5 um\"]]");
+  } else if (settings.text("coupling.scheme") == "implicit") {
+    list.add(
+        "coupling.scheme",
+        "\"implicit\" repeats a window of the macro flow, which a solver of OpenFOAM cannot do; "
+        "use \"explicit\"");
+  }
+  return list.faults;
+}
+
+}  // namespace hemoscale::coupling

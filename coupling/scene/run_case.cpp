@@ -1,0 +1,154 @@
+#include "coupling/scene/run_case.hpp"
+
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "coupling/config/read_case.hpp"
+#include "coupling/error.hpp"
+#include "coupling/scene/build_law.hpp"
+#include "coupling/scene/build_loop.hpp"
+#include "coupling/scene/build_micro.hpp"
+#include "coupling/scene/case_checks.hpp"
+#include "coupling/scene/coupled_run.hpp"
+#include "coupling/scene/hosts.hpp"
+#include "coupling/scene/results_folder.hpp"
+#include "macro/kinematics.hpp"
+#include "micro/ensemble/step_limit.hpp"
+
+namespace hemoscale::coupling {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string describe_ensemble(const Settings& settings) {
+  const micro::EnsembleParameters parameters = build_ensemble_parameters(settings, 1, true);
+  const micro::StepLimit limit = micro::step_limit(parameters);
+  const double step = parameters.time_step.value_or(0.8 * limit.time_step);
+  return fmt::format(
+      "micro: {} cells of {} nodes, hematocrit {:g} (area fraction), drag convention \"{}\"\n"
+      "  drag of a node {:.4g} Pa s; stiffness: ring {:.4g} Pa, contact {:.4g} Pa, wall {:.4g} Pa\n"
+      "  limit of the time step {:.4g} s; step {:.4g} s, {:.2f} of the limit\n",
+      parameters.cells, parameters.nodes, parameters.hematocrit,
+      settings.text("micro.drag.convention"), limit.drag, limit.ring, limit.contact, limit.wall,
+      limit.time_step, step, step / limit.time_step);
+}
+
+std::string describe_channel(const Settings& settings) {
+  const macro::ViscosityLaw law = build_law(settings, "law.initial", "law");
+  const auto flow = build_channel(settings).solve(law);
+  std::string text = fmt::format(
+      "macro: plane channel of {:.4g} m; with the initial law: mean velocity {:.4g} m/s, pressure "
+      "gradient {:.4g} Pa/m, wall shear rate {:.4g} 1/s\n",
+      settings.quantity("macro.channel.height"), flow->mean_velocity(), flow->pressure_gradient(),
+      flow->wall_shear_rate());
+  text += "  shear rates at the sample points [1/s]:";
+  for (const macro::Vector<2>& point : channel_points(settings)) {
+    const auto state = flow->at(point, 0);
+    text +=
+        state ? fmt::format(" {:.4g}", macro::shear_rate<2>(state->velocity_gradient)) : " outside";
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+CasePlace find_case(const fs::path& named) {
+  std::error_code ignored;
+  if (fs::is_regular_file(named, ignored)) {
+    const fs::path folder = named.parent_path();
+    return {folder.empty() ? fs::path(".") : folder, named};
+  }
+  if (!fs::is_directory(named, ignored)) {
+    throw CaseError(
+        {{named.string(), 0, 0, "",
+          "there is no such folder or file; give a case folder (it holds case.toml), or "
+          "the case file itself"}});
+  }
+  const fs::path file = named / "case.toml";
+  if (fs::is_regular_file(file, ignored)) return {named, file};
+  if (fs::is_regular_file(named / "system" / "controlDict", ignored)) {
+    throw CaseError(
+        {{named.string(), 0, 0, "",
+          "is an OpenFOAM case without case.toml: its plug-in keys stand in "
+          "system/controlDict and are checked when its solver starts; run the solver there, "
+          "or give a folder with case.toml"}});
+  }
+  throw CaseError({{named.string(), 0, 0, "",
+                    "is not a case folder: it holds neither case.toml nor system/controlDict"}});
+}
+
+Settings load_case(const fs::path& case_folder, const std::string& variant, bool force) {
+  const CasePlace place = find_case(case_folder);
+  const Settings settings = interpret(read_toml(place.file), variant);
+  if (const std::vector<Fault> faults = find_faults(settings, force); !faults.empty()) {
+    throw CaseError(faults);
+  }
+  return settings;
+}
+
+std::string describe_case(const Settings& settings) {
+  std::string text =
+      fmt::format("case {}, scene {}\n", settings.text("case.name"), settings.text("scene.kind"));
+  if (settings.text("scene.kind") == "coupled") {
+    text += settings.text("macro.model") == "channel"
+                ? describe_channel(settings)
+                : fmt::format("macro: {} in {}\n", settings.text("macro.openfoam.solver"),
+                              settings.text("macro.openfoam.case"));
+  }
+  if (settings.text("micro.model") == "ensemble") text += describe_ensemble(settings);
+  for (const std::string& statement : model_statements(settings))
+    text += "note: " + statement + "\n";
+  return text;
+}
+
+void run_case(const RunOptions& options, micro::Communicator&& communicator, std::ostream& log) {
+  const micro::Communicator group = std::move(communicator);
+  const CasePlace place = find_case(options.case_folder);
+  const Settings settings = load_case(options.case_folder, options.variant, options.force);
+  const bool is_micro = settings.text("scene.kind") == "micro";
+  const bool is_openfoam = !is_micro && settings.text("macro.model") == "openfoam";
+  if (group.size() > 1 && (is_micro || is_openfoam)) {
+    throw CaseError(
+        {{place.file.string(), 0, 0, is_micro ? "scene.kind" : "macro.model",
+          fmt::format("this scene runs on one process, but {} were started; {}", group.size(),
+                      is_micro ? "run it without mpirun, it uses threads (OMP_NUM_THREADS)"
+                               : "set macro.openfoam.ranks and run it without mpirun")}});
+  }
+  std::string variant = options.variant;
+  if (variant.empty() && settings.has("case.variant")) variant = settings.text("case.variant");
+  fs::path results = options.results;
+  if (results.empty()) {
+    results = place.folder / "results";
+    if (!variant.empty()) results /= variant;
+  }
+
+  const auto say = [&](const std::string& line) {
+    if (group.is_root()) log << line << std::endl;
+  };
+  std::string failure;
+  if (group.is_root()) {
+    try {
+      const std::string told = prepare_results_folder(results, options.restart);
+      if (!told.empty()) say(told);
+    } catch (const std::exception& error) {
+      failure = error.what();
+    }
+  }
+  if (group.size() == 1 && !failure.empty()) throw EnvironmentError(failure);
+  group.agree(failure);
+
+  const PreparedRun run{settings, place.folder,    place.file,    variant,
+                        results,  options.restart, options.force, say};
+  if (is_micro) {
+    run_micro(run);
+  } else if (is_openfoam) {
+    run_openfoam(run);
+  } else {
+    run_channel(run, group);
+  }
+  say("results: " + results.string());
+}
+
+}  // namespace hemoscale::coupling

@@ -1,0 +1,23 @@
+hemoscale_test(NAME coupling_unit LABEL unit LIBRARIES hemoscale_coupling
+  SOURCES
+    unit/coupling/coupled_loop_test.cpp
+    unit/coupling/micro_runs_test.cpp
+    unit/coupling/monotone_regression_test.cpp
+    unit/coupling/openfoam_dictionary_test.cpp
+    unit/coupling/rheology_table_test.cpp
+    unit/coupling/sampling_test.cpp
+    unit/coupling/scheme_parts_test.cpp
+    unit/coupling/student_t_test.cpp
+    unit/coupling/transfer_test.cpp)
+hemoscale_test(NAME coupling_property LABEL property LIBRARIES hemoscale_coupling
+  SOURCES
+    property/coupling/monotone_fit_test.cpp
+    property/coupling/shear_frame_test.cpp)
+hemoscale_test(NAME coupling_verification LABEL verification LIBRARIES hemoscale_coupling
+  SOURCES
+    verification/coupling/channel_feedback_test.cpp
+    verification/coupling/confidence_band_test.cpp)
+hemoscale_test(NAME coupling_stability LABEL stability LIBRARIES hemoscale_coupling
+  SOURCES stability/coupling/relaxation_limit_test.cpp)
+hemoscale_test(NAME coupling_restart LABEL restart LIBRARIES hemoscale_coupling
+  SOURCES restart/coupling/loop_restart_test.cpp)
