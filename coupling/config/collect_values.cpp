@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "coupling/config/nearest_key.hpp"
-#include "coupling/config/read_value.hpp"
 
 namespace hemoscale::coupling {
 
@@ -29,7 +28,8 @@ std::string printable(const std::string& key) {
 
 class Collector {
  public:
-  explicit Collector(const std::vector<Parameter>& table) : table_(table), reader_(faults_) {
+  Collector(const std::vector<Parameter>& table, ValueReader& reader, std::vector<Fault>& faults)
+      : table_(table), reader_(reader), faults_(faults) {
     for (const Parameter& parameter : table) {
       parameters_.emplace(parameter.key, &parameter);
       for (std::size_t dot = parameter.key.find('.'); dot != std::string::npos;
@@ -45,7 +45,6 @@ class Collector {
     for (const auto& [name, child] : tree.children) {
       if (name == variant_section) collect_variants(child, layers);
     }
-    layers.faults = std::move(faults_);
     return layers;
   }
 
@@ -150,14 +149,15 @@ class Collector {
   const std::vector<Parameter>& table_;
   std::unordered_map<std::string, const Parameter*> parameters_;
   std::set<std::string> sections_;
-  std::vector<Fault> faults_;
-  ValueReader reader_;
+  ValueReader& reader_;
+  std::vector<Fault>& faults_;
 };
 
 }  // namespace
 
-Layers collect_values(const ParameterTree& tree, const std::vector<Parameter>& table) {
-  return Collector(table).collect(tree);
+Layers collect_values(const ParameterTree& tree, const std::vector<Parameter>& table,
+                      ValueReader& reader, std::vector<Fault>& faults) {
+  return Collector(table, reader, faults).collect(tree);
 }
 
 }  // namespace hemoscale::coupling

@@ -8,6 +8,7 @@
 
 #include "coupling/config/parameter_table.hpp"
 #include "coupling/config/parameter_tree.hpp"
+#include "coupling/config/read_value.hpp"
 #include "coupling/config/settings.hpp"
 #include "coupling/error.hpp"
 
@@ -31,11 +32,13 @@ struct Layer {
 struct Layers {
   Layer base;
   std::vector<std::pair<std::string, Layer>> variants;  // in file order
-  std::vector<Fault> faults;
 };
 
 /// Looks up every key of the tree in the table and reads its value. Knows nothing of which keys
 /// apply or are missing.
-Layers collect_values(const ParameterTree& tree, const std::vector<Parameter>& table);
+///
+/// @param reader  adds its faults to `faults`
+Layers collect_values(const ParameterTree& tree, const std::vector<Parameter>& table,
+                      ValueReader& reader, std::vector<Fault>& faults);
 
 }  // namespace hemoscale::coupling

@@ -83,9 +83,10 @@ class Applicability {
 class Interpreter {
  public:
   Interpreter(const ParameterTree& tree, const std::vector<Parameter>& table)
-      : tree_(tree), table_(table), layers_(collect_values(tree, table)) {
-    faults_ = layers_.faults;
-  }
+      : tree_(tree),
+        table_(table),
+        reader_(faults_),
+        layers_(collect_values(tree, table, reader_, faults_)) {}
 
   Settings interpret(const std::string& asked_variant) {
     const Layer* variant = chosen_variant(asked_variant);
@@ -95,10 +96,9 @@ class Interpreter {
     }
     const Applicability applicable(table_, effective);
     refuse_inapplicable(applicable, variant);
-    ValueReader reader(faults_);
     for (const Parameter& parameter : table_) {
       if (applicable.applies(parameter) == Answer::yes) {
-        assign(parameter, effective, applicable, variant, reader);
+        assign(parameter, effective, applicable, variant);
       }
     }
     compare_keys(applicable, effective);
@@ -160,7 +160,7 @@ class Interpreter {
   }
 
   void assign(const Parameter& parameter, const Values& effective, const Applicability& applicable,
-              const Layer* variant, ValueReader& reader) {
+              const Layer* variant) {
     const auto given = effective.find(parameter.key);
     if (given != effective.end()) {
       if (given->second.value) {
@@ -174,7 +174,7 @@ class Interpreter {
       ParameterTree written;
       written.kind = ParameterTree::Kind::scalar;
       written.scalar = *parameter.default_value;
-      const auto value = reader.read(parameter, parameter.key, written);
+      const auto value = reader_.read(parameter, parameter.key, written);
       assert(value && "a default must be a valid value");
       if (value) settings_.assign(parameter.key, *value, {}, false);
       return;
@@ -258,8 +258,9 @@ class Interpreter {
 
   const ParameterTree& tree_;
   const std::vector<Parameter>& table_;
-  Layers layers_;
   std::vector<Fault> faults_;
+  ValueReader reader_;  // one for the case, its variants and the defaults
+  Layers layers_;
   Settings settings_;
 };
 

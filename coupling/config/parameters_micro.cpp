@@ -117,8 +117,8 @@ std::vector<Parameter> cell_parameters() {
           "it (Tsubota et al. 2006)."),
       choice_of_ensemble("micro.membrane.natural_shape", {"flat", "outline"}, "outline",
                          "Shape in which the bending energy vanishes."),
-      of_ensemble("micro.membrane.area_modulus", "N/m", above(0), "5e-6 N/m",
-                  "Resistance of a cell to a change of its area."),
+      of_ensemble("micro.membrane.area_modulus", "Pa", above(0), "50 Pa",
+                  "Pressure inside a cell per relative change of its area."),
   };
 }
 

@@ -1,9 +1,8 @@
 // toml++ is seen by this file alone: it is large, and only the tree leaves.
 //
-// Some broken input reaches an assertion of its parser (seen with version 3.3: a key that begins
-// with a byte that is neither a letter nor a quote), which ends the process, or in an optimised
-// build is taken for a promise to the compiler. Here a failed assertion of toml++ is an exception
-// in every build, and the input is refused.
+// Some broken input reaches an assertion of its parser (version 3.3: "[.a]"), which ends the
+// process, or in an optimised build is taken for a promise to the compiler. Here a failed assertion
+// of toml++ is an exception in every build, and the input is refused.
 #undef NDEBUG
 namespace {
 struct ParserAssertion {};
@@ -188,8 +187,8 @@ ParameterTree read_toml(const std::filesystem::path& file) {
                                   "; text stands in quotes, sections in brackets")});
   } catch (const ParserAssertion&) {
     throw CaseError({fault_at(place_of_assertion(name, text),
-                              "not valid TOML: a key or value begins with a byte that cannot begin "
-                              "one; text stands in quotes, sections in brackets")});
+                              "not valid TOML: a section begins with what cannot begin a name; "
+                              "write for example [micro.membrane]")});
   }
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -42,6 +43,15 @@ micro::Forcing<2> shear_forcing(const Settings& settings) {
   forcing.hematocrit = settings.quantity("fluid.hematocrit");
   forcing.velocity_gradient(0, 1) = settings.quantity("micro.shear_rate");
   return forcing;
+}
+
+/// Threads that pay: with fewer nodes than this per thread, they wait for each other more than they
+/// compute. Any number gives the same bits.
+int useful_threads(const Settings& settings) {
+  constexpr std::int64_t nodes_per_thread = 20000;
+  const std::int64_t nodes = settings.integer("micro.cells") * settings.integer("micro.nodes");
+  return static_cast<int>(
+      std::clamp<std::int64_t>(nodes / nodes_per_thread, 1, available_threads()));
 }
 
 std::vector<Column> columns(bool is_channel) {
@@ -96,7 +106,7 @@ void run_micro(const PreparedRun& run) {
   Summary summary;
   micro::EnsembleModel model = [&] {
     const auto scope = timings.measure("packing");
-    return micro::EnsembleModel(build_ensemble_parameters(settings, available_threads(), run.force),
+    return micro::EnsembleModel(build_ensemble_parameters(settings, useful_threads(settings), run.force),
                                 static_cast<std::uint64_t>(settings.integer("case.seed")));
   }();
   double done = 0;
@@ -132,12 +142,12 @@ void run_micro(const PreparedRun& run) {
   const double checkpoint_interval = settings.quantity("output.checkpoint_interval");
   Progress progress("time [s]", done, duration);
   micro::SceneObservation seen;
-  while (done < duration * (1 - 1e-9)) {
+  while (done + model.time_step() / 2 < duration) {
     {
       const auto scope = timings.measure("micro model");
-      // The stretch ends at the next multiple of the interval, whatever rounding to steps did
-      // before.
-      const double next = std::min(duration, interval * (std::floor(done / interval + 1e-6) + 1));
+      // The stretch ends at the next multiple of the interval. Stretches are rounded to whole steps,
+      // far shorter than an interval, so the nearest multiple is the one just reached.
+      const double next = std::min(duration, interval * (std::round(done / interval) + 1));
       seen = model.advance_by(forcing, next - done);
     }
     done = seen.time;
@@ -174,7 +184,7 @@ void run_micro(const PreparedRun& run) {
                                table.rows.back()[k], table.columns[k].unit});
   }
   summary.settings = settings.as_text();
-  summary.host = this_host(available_threads(), 1);
+  summary.host = this_host(useful_threads(settings), 1);
   summary.ledger = seen.ledger;
   summary.statements = model_statements(settings);
   summary.timings = timings.parts();

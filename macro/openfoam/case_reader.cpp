@@ -1,7 +1,11 @@
 #include "macro/openfoam/case_reader.hpp"
 
+#include <mpi.h>
+
 #include <array>
 #include <csignal>
+#include <cstdlib>
+#include <optional>
 #include <system_error>
 #include <vector>
 
@@ -52,6 +56,46 @@ class SignalHandlersKept {
   std::array<struct sigaction, 5> saved_{};
 };
 
+/// Silences what OpenFOAM's own reading would print on the host's output.
+class FoamIsQuiet {
+ public:
+  FoamIsQuiet() : level_(Foam::infoDetailLevel) { Foam::infoDetailLevel = 0; }
+  ~FoamIsQuiet() { Foam::infoDetailLevel = level_; }
+  FoamIsQuiet(const FoamIsQuiet&) = delete;
+  FoamIsQuiet& operator=(const FoamIsQuiet&) = delete;
+
+ private:
+  int level_;
+};
+
+/// Names the case in the environment, as OpenFOAM's programs do: dictionaries refer to $FOAM_CASE.
+class CaseNamed {
+ public:
+  explicit CaseNamed(const fs::path& folder) {
+    for (const char* name : names) {
+      const char* value = std::getenv(name);
+      saved_.push_back(value != nullptr ? std::optional<std::string>(value) : std::nullopt);
+    }
+    ::setenv(names[0], folder.c_str(), 1);
+    ::setenv(names[1], folder.filename().c_str(), 1);
+  }
+  ~CaseNamed() {
+    for (std::size_t i = 0; i < saved_.size(); ++i) {
+      if (saved_[i]) {
+        ::setenv(names[i], saved_[i]->c_str(), 1);
+      } else {
+        ::unsetenv(names[i]);
+      }
+    }
+  }
+  CaseNamed(const CaseNamed&) = delete;
+  CaseNamed& operator=(const CaseNamed&) = delete;
+
+ private:
+  static constexpr std::array<const char*, 2> names = {"FOAM_CASE", "FOAM_CASENAME"};
+  std::vector<std::optional<std::string>> saved_;
+};
+
 /// Fails on all ranks if it fails on one.
 void agree(bool is_good, const std::string& message) {
   if (!Foam::returnReduce(is_good, Foam::andOp<bool>())) throw EnvironmentError(message);
@@ -93,6 +137,16 @@ void check_case(const fs::path& folder, bool decomposed) {
   if (decomposed && !is_decomposed) {
     throw EnvironmentError(name + ": the case is not decomposed (no folder processor0); run "
                            "decomposePar in it, or start a single process");
+  }
+  if (!decomposed) return;
+  int ranks = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);  // OpenFOAM v1912 always takes all ranks
+  const std::string last = "processor" + std::to_string(ranks - 1);
+  if (fs::exists(folder / ("processor" + std::to_string(ranks)), ignored) ||
+      !is_there(folder / last / "constant" / "polyMesh" / "faces")) {
+    throw EnvironmentError(name + ": the case is not decomposed for " + std::to_string(ranks) +
+                           " ranks; run decomposePar with this number, or start as many ranks as "
+                           "it has processor folders");
   }
 }
 
@@ -143,12 +197,6 @@ OpenedCase::OpenedCase(const fs::path& folder, const CaseReading& reading) {
   if (reading.decomposed) {
     join_ranks(folder);
     part = part / ("processor" + Foam::name(Foam::Pstream::myProcNo()));
-    agree(is_there(folder / ("processor" + std::to_string(Foam::Pstream::myProcNo())) / "constant" /
-                 "polyMesh" / "faces") &&
-              !fs::exists(folder / ("processor" + std::to_string(Foam::Pstream::nProcs()))),
-          name + ": the case is not decomposed for " + std::to_string(Foam::Pstream::nProcs()) +
-              " ranks; run decomposePar with this number, or start as many ranks as it has "
-              "processor folders");
   }
   time_ = std::make_unique<Foam::Time>(Foam::Time::controlDictName, path.path(), part, Foam::word("system"),
                                        Foam::word("constant"), false);
@@ -210,6 +258,8 @@ hemoscale::macro::FlowField<3>* hemoscale_open_case(const std::filesystem::path*
   check_case(tidy, reading->decomposed);
   const FloatingPointTrapsOff traps_off;
   const SignalHandlersKept handlers_kept;
+  const CaseNamed case_named(tidy);
+  const FoamIsQuiet quiet;
   const FoamErrorsThrow errors_throw;
   try {
     return new OpenedCase(tidy, *reading);

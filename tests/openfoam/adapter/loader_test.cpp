@@ -60,6 +60,7 @@ TEST(Loader, says_that_a_library_is_another_one) {
 
 TEST(Loader, says_that_openfoam_is_not_where_the_environment_points) {
   HEMOSCALE_NEEDS_OPENFOAM();
+  ::unsetenv("HEMOSCALE_OPENFOAM_LIBRARY");
   ::setenv("WM_PROJECT_DIR", "/nowhere", 1);
   // without the check OpenFOAM would end this process
   EXPECT_THAT(failure_of([] { OpenFoamLibrary(); }),

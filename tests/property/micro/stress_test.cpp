@@ -74,7 +74,7 @@ TEST(ParticleStress, does_not_depend_on_the_origin) {
   model.advance_by(shear(100, 0.3), 0.02);
   const Snapshot start = model.snapshot();
   const Tensor<2> expected = model.advance_by(shear(100, 0.3), 0.002).particle_stress;
-  for (const Vector<2> shift : {Vector<2>(3e-6, 0), Vector<2>(-5e-6, 4.4e-6), Vector<2>(1e-6, -9e-6)}) {
+  for (const auto& shift : {Vector<2>(3e-6, 0), Vector<2>(-5e-6, 4.4e-6), Vector<2>(1e-6, -9e-6)}) {
     model.restore(start);
     test::move_nodes(model, [&](std::size_t, double x, double y) {
       return std::pair(x + shift.x(), y + shift.y());

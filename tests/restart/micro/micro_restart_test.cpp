@@ -40,11 +40,7 @@ TEST(EnsembleRestart, continues_with_the_same_bits) {
 TEST(EnsembleRestart, channel_continues_with_the_same_bits) {
   EnsembleParameters p = test::small_ensemble();
   p.domain = PlaneChannel{.height = 15e-6};
-  Forcing<2> forcing = shear(0, 0.3);
-  forcing.profile = VelocityProfile{.height = 15e-6};
-  for (int i = 0; i <= 20; ++i) {
-    forcing.profile->velocities.push_back(4e-3 * i * (20 - i) / 400);
-  }
+  const Forcing<2> forcing = test::poiseuille(15e-6, 4e-3, 0.3);
   EnsembleModel whole(p, 1);
   const double dt = whole.time_step();
   whole.advance_by(forcing, 1000 * dt);

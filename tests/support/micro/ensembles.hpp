@@ -37,6 +37,18 @@ inline micro::Forcing<2> shear(double rate, double hematocrit) {
   return forcing;
 }
 
+/// Poiseuille flow in a channel.
+inline micro::Forcing<2> poiseuille(double height, double velocity_at_axis, double hematocrit) {
+  micro::Forcing<2> forcing = shear(0, hematocrit);
+  micro::VelocityProfile profile;
+  profile.height = height;
+  for (int i = 0; i <= 20; ++i) {
+    profile.velocities.push_back(velocity_at_axis * 4 * i * (20 - i) / 400);
+  }
+  forcing.profile = profile;
+  return forcing;
+}
+
 /// Moves all nodes; the next homecoming brings the cells back into the box.
 template <class Move>
 void move_nodes(micro::EnsembleModel& model, const Move& move) {

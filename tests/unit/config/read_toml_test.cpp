@@ -50,13 +50,20 @@ TEST(ReadToml, says_where_the_syntax_breaks) {
   for (const auto& [text, line] :
        {Broken{"a = 1\nb = \n", 2}, Broken{"a = 1\na = 2\n", 2}, Broken{"[a\n", 1},
         Broken{"a = 99999999999999999999\n", 1}, Broken{"a = \"x\n", 1}, Broken{"\n\nb = um\n", 3},
-        Broken{"a = 1\n\xff = 2\n", 2}, Broken{"[a]\n[a]\n", 2}}) {
+        Broken{"a = 1\nb\xff = 2\n", 2}, Broken{"[a]\n[a]\n", 2}}) {
     const std::vector<Fault> faults = faults_of(text);
     ASSERT_EQ(faults.size(), 1U) << text;
     EXPECT_EQ(faults[0].line, line) << text << faults[0].message;
     EXPECT_GT(faults[0].column, 0) << text;
     EXPECT_THAT(faults[0].message, testing::HasSubstr("not valid TOML")) << text;
   }
+}
+
+TEST(ReadToml, refuses_what_toml_plus_plus_only_asserts) {
+  const std::vector<Fault> faults = faults_of("a = 1\n\n[.a]\n");
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].line, 3);
+  EXPECT_THAT(faults[0].message, testing::HasSubstr("not valid TOML"));
 }
 
 TEST(ReadToml, refuses_nesting_that_would_overflow_the_stack) {

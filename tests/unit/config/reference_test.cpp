@@ -51,7 +51,7 @@ TEST(Reference, fits_a_terminal) {
 TEST(Reference, one_key_in_full) {
   const std::string card = reference_text("macro.channel.pressure_gradient");
   for (const char* part : {"quantity in Pa/m", "> 0 Pa/m", "required", "macro.model = channel",
-                           "macro.channel.drive = pressure-gradient", "\"10 kPa/m\""}) {
+                           "macro.channel.drive =", "\"10 kPa/m\""}) {
     EXPECT_THAT(card, HasSubstr(part));
   }
 }

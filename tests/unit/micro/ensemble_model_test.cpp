@@ -170,12 +170,7 @@ TEST(EnsembleModel, channel_reports_profiles_and_shear_box_does_not) {
   EnsembleParameters p = small_ensemble();
   p.domain = PlaneChannel{.height = 15e-6};
   EnsembleModel channel(p, 1);
-  Forcing<2> forcing = shear(0, 0.3);
-  forcing.profile = VelocityProfile{.height = 15e-6};
-  for (int i = 0; i <= 20; ++i) {
-    forcing.profile->velocities.push_back(4e-3 * i * (20 - i) / 400);
-  }
-  const SceneObservation o = channel.advance_by(forcing, 1e-3);
+  const SceneObservation o = channel.advance_by(test::poiseuille(15e-6, 4e-3, 0.3), 1e-3);
   ASSERT_TRUE(o.profile.has_value());
   double mean = 0;
   for (const double fraction : o.profile->area_fraction) {

@@ -72,7 +72,7 @@ TEST(RunAverage, takes_the_symmetric_part_and_the_normal_difference) {
 }
 
 TEST(RunAverage, refuses_runs_that_cannot_end) {
-  const auto broken = [](Run r) { EXPECT_THROW(require_admissible(r), ParameterError); };
+  const auto broken = [](micro::Run r) { EXPECT_THROW(require_admissible(r), ParameterError); };
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NO_THROW(require_admissible(run));
   broken({-1, 5, 50, 0.01});

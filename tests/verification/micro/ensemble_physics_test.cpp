@@ -37,11 +37,7 @@ TEST(EnsemblePhysics, an_isolated_cell_does_not_drift_in_a_channel) {
   test::move_nodes(model, [&](std::size_t, double x, double y) {
     return std::pair(x, y - start + 12e-6);
   });
-  Forcing<2> forcing = shear(0, 0.01);
-  forcing.profile = VelocityProfile{.height = 40e-6};
-  for (int i = 0; i <= 20; ++i) {
-    forcing.profile->velocities.push_back(2e-3 * 4 * i * (20 - i) / 400);
-  }
+  const Forcing<2> forcing = test::poiseuille(40e-6, 2e-3, 0.01);
   const double before = mean_y(model);
   model.advance_by(forcing, 0.05);
   EXPECT_NEAR(mean_y(model), before, 1e-12 * 10 * 3e-6);
