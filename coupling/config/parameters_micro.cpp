@@ -70,13 +70,6 @@ std::vector<Parameter> domain_parameters() {
       count_of_ensemble("micro.nodes", between(8, 1000), "40", "Nodes of the membrane of a cell."),
       of_ensemble("micro.aspect_ratio", "", between(0.2, 50), "1",
                   "Length of the shear box over its height."),
-      {.key = "micro.channel.height",
-       .kind = Kind::quantity,
-       .unit = "m",
-       .range = above(0),
-       .required = true,
-       .applies_when = {ensemble, {"micro.domain", "channel"}},
-       .sentence = "Distance between the two walls of the micro channel."},
       of_lone_run("micro.shear_rate", "1/s", {{"micro.domain", "shear-box"}},
                   "Shear rate of the box."),
       of_lone_run("micro.mean_velocity", "m/s", {{"micro.domain", "channel"}},
@@ -95,6 +88,13 @@ std::vector<Parameter> domain_parameters() {
        .default_value = "false",
        .applies_when = {ensemble},
        .sentence = "Run although a stability limit is exceeded."},
+      {.key = "micro.channel.height",
+       .kind = Kind::quantity,
+       .unit = "m",
+       .range = above(0),
+       .required = true,
+       .applies_when = {ensemble, {"micro.domain", "channel"}},
+       .sentence = "Distance between the two walls of the micro channel."},
   };
 }
 

@@ -103,7 +103,7 @@ std::optional<Settings::Value> ValueReader::read(const Parameter& parameter, con
                                                  const Tree& node) {
   const auto as_value = [](auto&& result) -> std::optional<Settings::Value> {
     if (!result) return std::nullopt;
-    return Settings::Value(*std::move(result));
+    return std::optional<Settings::Value>(std::in_place, *std::move(result));
   };
   switch (parameter.kind) {
     case Kind::quantity:

@@ -6,12 +6,14 @@
 namespace hemoscale::micro {
 
 /// Bending by tangents of half angles, per unit depth: the form of the paper's membrane
-/// [Tsubota2006, section 3.1, "angle between the neighboring elements"; Tsubota, Wada and Yamaguchi 2006]:
+/// [Tsubota2006, section 3.1, "angle between the neighboring elements"; Tsubota, Wada and Yamaguchi
+/// 2006]:
 ///
 ///   E = sum_i (k_b_i / 2) tan^2((theta_i - theta0_i) / 2),   k_b_i = 4 kappa / l0_i        [N]
 ///
-/// The mapping of k_b makes the continuum limit (kappa/2) int (c - c0)^2 ds, reached with second order.
-/// Differs from the turning-angle law at large angles only, where it stiffens and diverges at pi.
+/// The mapping of k_b makes the continuum limit (kappa/2) int (c - c0)^2 ds, reached with second
+/// order. Differs from the turning-angle law at large angles only, where it stiffens and diverges
+/// at pi.
 struct HalfAngleBending {
   double modulus = 0;  // [J] kappa
 };

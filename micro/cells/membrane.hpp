@@ -5,7 +5,8 @@ namespace hemoscale::micro {
 /// Which energy resists bending.
 enum class BendingLaw {
   turning_angle,      // (kappa/2) sum (theta - theta0)^2 / l0
-  half_angle_tangent  // (k_b/2) sum tan^2((theta - theta0)/2), k_b = 4 kappa/l0: the form of the paper
+  half_angle_tangent  // (k_b/2) sum tan^2((theta - theta0)/2), k_b = 4 kappa/l0: the form of the
+                      // paper
 };
 
 /// Angles at which bending vanishes.

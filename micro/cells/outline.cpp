@@ -59,7 +59,8 @@ void require_admissible(const OutlineParameters& p, int nodes) {
   }
   if (!(p.length > 0) || !std::isfinite(p.length)) {
     throw ParameterError(fmt::format(
-        "length of the outline {} m; it must be finite and positive; a red cell has 7.82e-6", p.length));
+        "length of the outline {} m; it must be finite and positive; a red cell has 7.82e-6",
+        p.length));
   }
   if (p.outline == Outline::ellipse && !(p.aspect > 0 && p.aspect <= 1)) {
     throw ParameterError(fmt::format(
@@ -88,11 +89,13 @@ std::vector<Vector<2>> outline_nodes(const OutlineParameters& parameters, int no
       ++interval;
     }
     const double start = static_cast<double>(interval) * width;
-    double t = start + width * (wanted - length[interval]) / (length[interval + 1] - length[interval]);
+    double t =
+        start + width * (wanted - length[interval]) / (length[interval + 1] - length[interval]);
     // Newton's method; the interpolated start is good to four digits, so that three steps reach
     // round-off.
     for (int iteration = 0; iteration < 3; ++iteration) {
-      t -= (length[interval] + arc(parameters, start, t) - wanted) / derivative(parameters, t).norm();
+      t -= (length[interval] + arc(parameters, start, t) - wanted) /
+           derivative(parameters, t).norm();
     }
     result.push_back(point(parameters, t));
   }

@@ -17,8 +17,8 @@ struct OutlineParameters {
   double aspect = 0.35;     // [-] thickness over length; ellipse only, (0, 1]
 };
 
-/// Nodes on the outline of a cell, counter-clockwise, equally spaced in arc length, the first on the
-/// positive first axis; centred on the origin with the long axis along the first axis.
+/// Nodes on the outline of a cell, counter-clockwise, equally spaced in arc length, the first on
+/// the positive first axis; centred on the origin with the long axis along the first axis.
 ///
 /// Evans and Fung 1972:  z(r) = +-(R/2) sqrt(1 - s) (0.207161 + 2.002558 s - 1.122762 s^2),
 /// s = r^2/R^2, R = length/2.

@@ -8,9 +8,9 @@
 namespace hemoscale::micro {
 
 /// What the membrane laws need to know of the present shape of a ring, and where they put their
-/// loads: scratch memory that is reused from ring to ring. Segment arrays are shifted by one, so that
-/// loops along the ring need no wrapping: entry j + 1 belongs to segment j, entry 0 repeats the last
-/// segment.
+/// loads: scratch memory that is reused from ring to ring. Segment arrays are shifted by one, so
+/// that loops along the ring need no wrapping: entry j + 1 belongs to segment j, entry 0 repeats
+/// the last segment.
 struct RingGeometry {
   explicit RingGeometry(int node_count)
       : nodes(static_cast<std::size_t>(node_count)),
@@ -23,22 +23,23 @@ struct RingGeometry {
         moment(nodes + 1) {}
 
   std::size_t nodes;
-  std::vector<double> dx, dy;           // [m] segment vectors
-  std::vector<double> inverse_length;   // [1/m]
-  std::vector<double> half_tangent;     // [-] tan(theta/2) of the turning angle at node i
-  double area = 0;                      // [m^2] enclosed
+  std::vector<double> dx, dy;          // [m] segment vectors
+  std::vector<double> inverse_length;  // [1/m]
+  std::vector<double> half_tangent;    // [-] tan(theta/2) of the turning angle at node i
+  double area = 0;                     // [m^2] enclosed
 
-  // Loads. Segment j pulls node j by +pull and node j + 1 by -pull, so that no law can exert a net force.
+  // Loads. Segment j pulls node j by +pull and node j + 1 by -pull, so that no law can exert a net
+  // force.
   std::vector<double> pull_x, pull_y;  // [N/m] shifted by one like the segments
   double pressure = 0;                 // [Pa] inside over outside
-  std::vector<double> moment;          // [N] scratch of the bending laws: dE/dtheta per node, closed
+  std::vector<double> moment;  // [N] scratch of the bending laws: dE/dtheta per node, closed
 };
 
 /// Shape of a ring from its positions; loads are set to zero.
 ///
-/// tan(theta/2) = c / (h + d) with c and d the cross and scalar products of neighbouring segments and
-/// h the product of their lengths; for obtuse turns (h - d) / c, which does not cancel. It needs
-/// neither a square root nor an inverse tangent, and is exact but for round-off.
+/// tan(theta/2) = c / (h + d) with c and d the cross and scalar products of neighbouring segments
+/// and h the product of their lengths; for obtuse turns (h - d) / c, which does not cancel. It
+/// needs neither a square root nor an inverse tangent, and is exact but for round-off.
 [[gnu::always_inline]] inline void measure(const double* x, const double* y, RingGeometry& ring) {
   const std::size_t n = ring.nodes;
   double* const dx = ring.dx.data();
@@ -81,9 +82,11 @@ struct RingGeometry {
   ring.pressure = 0;
 }
 
-/// Node forces of the collected loads: the pulls of both segments, and the pressure on half of each.
+/// Node forces of the collected loads: the pulls of both segments, and the pressure on half of
+/// each.
 /// @param force_x, force_y  [N/m] overwritten
-[[gnu::always_inline]] inline void assemble(const RingGeometry& ring, double* force_x, double* force_y) {
+[[gnu::always_inline]] inline void assemble(const RingGeometry& ring, double* force_x,
+                                            double* force_y) {
   const double* const dx = ring.dx.data();
   const double* const dy = ring.dy.data();
   const double* const pull_x = ring.pull_x.data();

@@ -10,7 +10,9 @@
 namespace hemoscale::micro {
 namespace {
 
-double cross(const Vector<2>& a, const Vector<2>& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross(const Vector<2>& a, const Vector<2>& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 }  // namespace
 
@@ -29,18 +31,20 @@ RingMesh make_ring_mesh(const std::vector<Vector<2>>& polygon, NaturalShape natu
     const Vector<2> segment = polygon[(i + 1) % n] - polygon[i];
     mesh.rest_length[i] = segment.norm();
     if (!(mesh.rest_length[i] > 0) || !std::isfinite(mesh.rest_length[i])) {
-      throw ParameterError(fmt::format(
-          "ring: the distance from node {} to the next is {} m; it must be finite and positive; space "
-          "the nodes evenly",
-          i, mesh.rest_length[i]));
+      throw ParameterError(
+          fmt::format("ring: the distance from node {} to the next is {} m; it must be finite and "
+                      "positive; space "
+                      "the nodes evenly",
+                      i, mesh.rest_length[i]));
     }
     mesh.rest_perimeter += mesh.rest_length[i];
     mesh.rest_area += 0.5 * cross(polygon[i] - polygon[0], polygon[(i + 1) % n] - polygon[0]);
   }
   if (!(mesh.rest_area > 0)) {
-    throw ParameterError(fmt::format(
-        "ring: the enclosed area is {} m^2; it must be positive; number the nodes counter-clockwise",
-        mesh.rest_area));
+    throw ParameterError(
+        fmt::format("ring: the enclosed area is {} m^2; it must be positive; number the nodes "
+                    "counter-clockwise",
+                    mesh.rest_area));
   }
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t before = (i + n - 1) % n;

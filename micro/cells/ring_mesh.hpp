@@ -11,16 +11,17 @@ namespace hemoscale::micro {
 /// joins node i to node i + 1, and the last node to the first.
 struct RingMesh {
   int nodes = 0;
-  std::vector<double> rest_length;           // [m] of segment i
-  std::vector<double> node_length;           // [m] mean of the two segments at node i
-  std::vector<double> natural_angle;         // [rad] turning angle theta0 at node i, left turns positive
+  std::vector<double> rest_length;    // [m] of segment i
+  std::vector<double> node_length;    // [m] mean of the two segments at node i
+  std::vector<double> natural_angle;  // [rad] turning angle theta0 at node i, left turns positive
   std::vector<double> natural_half_tangent;  // [-] tan(theta0 / 2)
   double rest_area = 0;                      // [m^2]
   double rest_perimeter = 0;                 // [m]
 };
 
 /// The ring whose reference shape is the given polygon.
-/// @throws ParameterError unless there are at least three nodes, counter-clockwise, no two neighbours
+/// @throws ParameterError unless there are at least three nodes, counter-clockwise, no two
+/// neighbours
 ///         in the same place
 RingMesh make_ring_mesh(const std::vector<Vector<2>>& polygon, NaturalShape natural_shape);
 

@@ -5,14 +5,15 @@
 
 namespace hemoscale::micro {
 
-/// Linear stretching of the segments, per unit depth [Tsubota2006, section 3.1, "length of the element"]:
+/// Linear stretching of the segments, per unit depth [Tsubota2006, section 3.1, "length of the
+/// element"]:
 ///
 ///   E = (E_l / 2) sum_i l0_i ((l_i - l0_i) / l0_i)^2        [N]
 ///
-/// Converges to the continuum (E_l / 2) int strain^2 ds with second order in the node spacing. The form
-/// (k_l / 2) sum ((l - l0)/l0)^2 of that line of papers is the same with k_l = E_l l0, which makes its
-/// constant depend on the number of nodes. Sum of forces and torques zero; invalid for coincident
-/// neighbours.
+/// Converges to the continuum (E_l / 2) int strain^2 ds with second order in the node spacing. The
+/// form (k_l / 2) sum ((l - l0)/l0)^2 of that line of papers is the same with k_l = E_l l0, which
+/// makes its constant depend on the number of nodes. Sum of forces and torques zero; invalid for
+/// coincident neighbours.
 struct Stretch {
   double modulus = 0;  // [N/m] E_l: line tension per strain
 };

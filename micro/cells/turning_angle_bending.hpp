@@ -9,16 +9,16 @@ namespace hemoscale::micro {
 ///
 ///   E = (kappa / 2) sum_i (theta_i - theta0_i)^2 / l0_i        [N]
 ///
-/// Converges to the continuum (kappa/2) int (c - c0)^2 ds with second order in the node spacing. The
-/// angle is that of atan2(cross, dot) of neighbouring segments, in (-pi, pi): it sees the sign of the
-/// curvature. Invalid where two segments fold back on each other.
+/// Converges to the continuum (kappa/2) int (c - c0)^2 ds with second order in the node spacing.
+/// The angle is that of atan2(cross, dot) of neighbouring segments, in (-pi, pi): it sees the sign
+/// of the curvature. Invalid where two segments fold back on each other.
 struct TurningAngleBending {
   double modulus = 0;  // [J] kappa
 };
 
 /// Inverse tangent for |t| <= tan(pi/8), relative error 4e-17 before rounding: interpolation of
-/// atan(sqrt z)/sqrt z at eleven Chebyshev points of 0 <= z <= tan^2(pi/8). A polynomial alone, so that
-/// loops over it become vector instructions, which those over std::atan do not.
+/// atan(sqrt z)/sqrt z at eleven Chebyshev points of 0 <= z <= tan^2(pi/8). A polynomial alone, so
+/// that loops over it become vector instructions, which those over std::atan do not.
 [[gnu::always_inline]] inline double small_arctangent(double t) {
   const double z = t * t;
   double p = 0.021133752033748364;

@@ -19,12 +19,14 @@ class Faults {
     }
   }
   void positive(double value, const char* name, const char* unit, const char* remedy) {
-    require(value > 0 && std::isfinite(value),
-            fmt::format("{} is {} {}; it must be finite and positive; {}", name, value, unit, remedy));
+    require(
+        value > 0 && std::isfinite(value),
+        fmt::format("{} is {} {}; it must be finite and positive; {}", name, value, unit, remedy));
   }
   void not_negative(double value, const char* name, const char* unit, const char* remedy) {
     require(value >= 0 && std::isfinite(value),
-            fmt::format("{} is {} {}; it must be finite and not negative; {}", name, value, unit, remedy));
+            fmt::format("{} is {} {}; it must be finite and not negative; {}", name, value, unit,
+                        remedy));
   }
   const std::string& text() const { return text_; }
 
@@ -39,10 +41,12 @@ void check_laws(const EnsembleParameters& p, Faults& faults) {
   faults.not_negative(p.membrane.area_modulus, "area modulus", "Pa", "choose 0 for none");
   faults.positive(p.drag.coefficient, "drag coefficient", "", "choose such as 12 for a cell");
   faults.not_negative(p.contact.stiffness, "contact stiffness", "Pa", "choose 0 for no contact");
-  faults.positive(p.contact.rest_distance, "contact rest distance", "m", "choose about a node spacing");
-  faults.require(p.contact.cutoff > p.contact.rest_distance && std::isfinite(p.contact.cutoff),
-                 fmt::format("contact cutoff is {} m; it must exceed the rest distance {} m; raise it",
-                             p.contact.cutoff, p.contact.rest_distance));
+  faults.positive(p.contact.rest_distance, "contact rest distance", "m",
+                  "choose about a node spacing");
+  faults.require(
+      p.contact.cutoff > p.contact.rest_distance && std::isfinite(p.contact.cutoff),
+      fmt::format("contact cutoff is {} m; it must exceed the rest distance {} m; raise it",
+                  p.contact.cutoff, p.contact.rest_distance));
   faults.require(p.contact.attraction >= 0 && p.contact.attraction <= 10,
                  fmt::format("contact attraction is {}; it must lie in [0, 10]; choose 0 for none",
                              p.contact.attraction));
@@ -64,15 +68,17 @@ void check_numerics(const EnsembleParameters& p, Faults& faults) {
 
 void require_admissible(const EnsembleParameters& p) {
   Faults faults;
-  faults.require(p.cells >= 1 && p.cells <= 1000000,
-                 fmt::format("{} cells; the number must lie in 1..1000000; choose such as 24", p.cells));
-  faults.require(p.nodes >= 8 && p.nodes <= 1000,
-                 fmt::format("{} nodes per cell; the number must lie in 8..1000; choose such as 40",
-                             p.nodes));
-  faults.require(p.hematocrit > 0 && p.hematocrit <= 0.75,
-                 fmt::format("hematocrit is {}; the area fraction must lie in (0, 0.75], since biconcave "
-                             "sections do not pack more densely; lower it",
-                             p.hematocrit));
+  faults.require(
+      p.cells >= 1 && p.cells <= 1000000,
+      fmt::format("{} cells; the number must lie in 1..1000000; choose such as 24", p.cells));
+  faults.require(
+      p.nodes >= 8 && p.nodes <= 1000,
+      fmt::format("{} nodes per cell; the number must lie in 8..1000; choose such as 40", p.nodes));
+  faults.require(
+      p.hematocrit > 0 && p.hematocrit <= 0.75,
+      fmt::format("hematocrit is {}; the area fraction must lie in (0, 0.75], since biconcave "
+                  "sections do not pack more densely; lower it",
+                  p.hematocrit));
   faults.positive(p.plasma_viscosity, "plasma viscosity", "Pa s", "plasma at 37 C has 1.2e-3");
   faults.positive(p.outline.length, "length of the outline", "m", "a red cell has 7.82e-6");
   if (const auto* box = std::get_if<ShearBox>(&p.domain)) {

@@ -34,30 +34,35 @@ Box make_box(const EnsembleParameters& p, double cell_area) {
   return {.length = area / height, .height = height, .walls = true};
 }
 
-/// The box must be larger than a cell, or cells would meet their own images, or the far wall, across it.
+/// The box must be larger than a cell, or cells would meet their own images, or the far wall,
+/// across it.
 void require_room(const EnsembleParameters& p, const Box& box) {
   const double least_length = p.outline.length + p.contact.cutoff;
   const double least_height = box.walls ? 2 * p.wall.range : least_length;
   if (box.length < least_length || box.height < least_height) {
-    throw ParameterError(fmt::format(
-        "ensemble: {} cells at hematocrit {} make a box of {:.4g} m by {:.4g} m; at least {:.4g} m by "
-        "{:.4g} m is needed, or cells meet themselves across it; use more cells or another aspect ratio",
-        p.cells, p.hematocrit, box.length, box.height, least_length, least_height));
+    throw ParameterError(
+        fmt::format("ensemble: {} cells at hematocrit {} make a box of {:.4g} m by {:.4g} m; at "
+                    "least {:.4g} m by "
+                    "{:.4g} m is needed, or cells meet themselves across it; use more cells or "
+                    "another aspect ratio",
+                    p.cells, p.hematocrit, box.length, box.height, least_length, least_height));
   }
   if (p.contact.cutoff * 4 > std::min(box.length, box.walls ? box.length : box.height)) {
-    throw ParameterError(fmt::format(
-        "ensemble: the contact cutoff {:.4g} m is more than a quarter of the box of {:.4g} m by {:.4g} m; "
-        "lower it or use more cells",
-        p.contact.cutoff, box.length, box.height));
+    throw ParameterError(
+        fmt::format("ensemble: the contact cutoff {:.4g} m is more than a quarter of the box of "
+                    "{:.4g} m by {:.4g} m; "
+                    "lower it or use more cells",
+                    p.contact.cutoff, box.length, box.height));
   }
 }
 
-EnsembleSystem make_system(const EnsembleParameters& p, const RingMesh& mesh, const StepLimit& limit) {
+EnsembleSystem make_system(const EnsembleParameters& p, const RingMesh& mesh,
+                           const StepLimit& limit) {
   EnsembleSystem system;
   system.mesh = mesh;
   system.laws = make_membrane_laws(p.membrane);
-  system.contact = make_pair_potential(p.contact.stiffness, p.contact.rest_distance, p.contact.cutoff,
-                                       p.contact.attraction);
+  system.contact = make_pair_potential(p.contact.stiffness, p.contact.rest_distance,
+                                       p.contact.cutoff, p.contact.attraction);
   system.wall = {.stiffness = p.wall.stiffness, .range = p.wall.range};
   system.node_drag = limit.drag;
   system.explicit_limit = limit.time_step;
@@ -67,8 +72,10 @@ EnsembleSystem make_system(const EnsembleParameters& p, const RingMesh& mesh, co
   system.time_step = p.time_step.value_or(default_step);
   if (system.time_step > limit.time_step && !p.force) {
     throw ParameterError(fmt::format(
-        "ensemble: time step {:.4g} s exceeds the explicit limit {:.4g} s (drag of a node {:.4g} Pa s; "
-        "ring {:.4g}, contact {:.4g}, wall {:.4g} Pa); reduce the time step, use fewer nodes or softer "
+        "ensemble: time step {:.4g} s exceeds the explicit limit {:.4g} s (drag of a node {:.4g} "
+        "Pa s; "
+        "ring {:.4g}, contact {:.4g}, wall {:.4g} Pa); reduce the time step, use fewer nodes or "
+        "softer "
         "contacts, or force the run",
         system.time_step, limit.time_step, limit.drag, limit.ring, limit.contact, limit.wall));
   }
@@ -91,10 +98,12 @@ double simple_shear_rate(const Forcing<2>& forcing) {
   const double rest =
       std::max({std::abs(gradient(0, 0)), std::abs(gradient(1, 0)), std::abs(gradient(1, 1))});
   if (!std::isfinite(rate) || !(rest <= 1e-9 * std::abs(rate))) {
-    throw ParameterError(fmt::format(
-        "ensemble: the velocity gradient is ({:.6g}, {:.6g}; {:.6g}, {:.6g}) 1/s; only simple shear, its "
-        "component (0, 1), is possible in a box with sliding images; rotate the frame into the flow",
-        gradient(0, 0), gradient(0, 1), gradient(1, 0), gradient(1, 1)));
+    throw ParameterError(
+        fmt::format("ensemble: the velocity gradient is ({:.6g}, {:.6g}; {:.6g}, {:.6g}) 1/s; only "
+                    "simple shear, its "
+                    "component (0, 1), is possible in a box with sliding images; rotate the frame "
+                    "into the flow",
+                    gradient(0, 0), gradient(0, 1), gradient(1, 0), gradient(1, 1)));
   }
   return rate;
 }
@@ -137,7 +146,8 @@ struct EnsembleModel::Parts {
         1, std::llround(parameters.sampling_strain / (std::abs(rate) * system.time_step)));
   }
   std::int64_t samples_per_count(double rate) const {
-    const double spacing = std::abs(rate) * system.time_step * static_cast<double>(steps_per_sample(rate));
+    const double spacing =
+        std::abs(rate) * system.time_step * static_cast<double>(steps_per_sample(rate));
     return std::max<std::int64_t>(1, std::llround(interpenetration_strain / spacing));
   }
 };
@@ -193,7 +203,7 @@ Tensor<2> EnsembleModel::Parts::sampled_step(const Flow& flow, StepSums& sums,
   const Tensor<2> stress = particle_stress(sums, box);
   if (shear != nullptr) {
     const double power = box.area() * stress(0, 1) * shear->rate;
-    ledger.record_power(stepper.energy(state, box) - before, power, sums.dissipation, system.time_step);
+    ledger.record_power(before, stepper.energy(state, box), power, sums.dissipation);
   }
   ledger.require_sound(state);
   return stress;
@@ -201,10 +211,11 @@ Tensor<2> EnsembleModel::Parts::sampled_step(const Flow& flow, StepSums& sums,
 
 void EnsembleModel::Parts::require_hematocrit(const Forcing<2>& forcing) const {
   if (!(std::abs(forcing.hematocrit - parameters.hematocrit) <= 1e-9)) {
-    throw ParameterError(fmt::format(
-        "ensemble: the forcing has hematocrit {}, the box was packed at {}; they must agree; make a model "
-        "for every hematocrit",
-        forcing.hematocrit, parameters.hematocrit));
+    throw ParameterError(
+        fmt::format("ensemble: the forcing has hematocrit {}, the box was packed at {}; they must "
+                    "agree; make a model "
+                    "for every hematocrit",
+                    forcing.hematocrit, parameters.hematocrit));
   }
 }
 
@@ -220,19 +231,22 @@ Observation<2> EnsembleModel::advance(const Forcing<2>& forcing, const Run& run)
   Parts& parts = *parts_;
   require_admissible(run);
   if (parts.box.walls) {
-    throw ParameterError("ensemble: a channel has no uniform shear rate to average at; a shear box is "
-                         "needed; choose that domain, or advance the channel by a duration");
+    throw ParameterError(
+        "ensemble: a channel has no uniform shear rate to average at; a shear box is "
+        "needed; choose that domain, or advance the channel by a duration");
   }
   const double rate = simple_shear_rate(forcing);
   if (rate == 0) {
-    throw ParameterError("ensemble: the shear rate is 0 1/s; it must not vanish, as runs are measured in "
-                         "strain; leave such points out of the sampling");
+    throw ParameterError(
+        "ensemble: the shear rate is 0 1/s; it must not vanish, as runs are measured in "
+        "strain; leave such points out of the sampling");
   }
   parts.require_hematocrit(forcing);
   const Flow flow = SimpleShear{rate};
   const std::int64_t first_step = parts.state.step;
   const double strain_per_step = std::abs(rate) * parts.system.time_step;
-  const auto warm_up_steps = static_cast<std::int64_t>(std::ceil(run.warm_up_strain / strain_per_step));
+  const auto warm_up_steps =
+      static_cast<std::int64_t>(std::ceil(run.warm_up_strain / strain_per_step));
   for (std::int64_t i = 0; i < warm_up_steps; ++i) {
     parts.step(flow, nullptr);
   }
@@ -268,7 +282,8 @@ SceneObservation EnsembleModel::advance_by(const Forcing<2>& forcing, double dur
   if (parts.box.walls) {
     if (!forcing.profile || std::abs(forcing.profile->height / parts.box.height - 1) > 1e-9) {
       throw ParameterError(fmt::format(
-          "ensemble: the forcing has {}; a velocity profile across the channel of height {} m is needed; "
+          "ensemble: the forcing has {}; a velocity profile across the channel of height {} m is "
+          "needed; "
           "give one",
           forcing.profile ? fmt::format("a profile of height {} m", forcing.profile->height)
                           : std::string("no velocity profile"),
@@ -305,8 +320,8 @@ SceneObservation EnsembleModel::advance_by(const Forcing<2>& forcing, double dur
     shear.push_back(0.5 * (stress(0, 1) + stress(1, 0)) + parts.parameters.plasma_viscosity * rate);
     normal.push_back(stress(0, 0) - stress(1, 1));
     if (parts.box.walls) {
-      profile.add(before, std::get<CubicProfile>(flow), parts.stepper.force_x(), parts.system.node_drag,
-                  sums.lower_wall + sums.upper_wall);
+      profile.add(before, std::get<CubicProfile>(flow), parts.stepper.force_x(),
+                  parts.system.node_drag, sums.lower_wall + sums.upper_wall);
     }
   }
   SceneObservation result;
@@ -327,9 +342,10 @@ SceneObservation EnsembleModel::advance_by(const Forcing<2>& forcing, double dur
 
 void EnsembleModel::observe(FrameClock clock, double interval, FrameObserver observer) {
   if (!(interval > 0) || !std::isfinite(interval)) {
-    throw ParameterError(fmt::format("ensemble: interval between frames {}; it must be finite and "
-                                     "positive; give it in seconds or units of strain",
-                                     interval));
+    throw ParameterError(
+        fmt::format("ensemble: interval between frames {}; it must be finite and "
+                    "positive; give it in seconds or units of strain",
+                    interval));
   }
   parts_->watcher = {clock, interval, std::move(observer)};
 }
@@ -360,9 +376,10 @@ void EnsembleModel::restore(const Snapshot& snapshot) {
   const auto integer = [&](const char* name) {
     const auto found = snapshot.integers.find(name);
     if (found == snapshot.integers.end() || found->second.size() != 1) {
-      throw ParameterError(fmt::format("snapshot: no single integer '{}'; one of an ensemble is needed; "
-                                       "restore it into the kind of model that wrote it",
-                                       name));
+      throw ParameterError(
+          fmt::format("snapshot: no single integer '{}'; one of an ensemble is needed; "
+                      "restore it into the kind of model that wrote it",
+                      name));
     }
     return found->second.front();
   };
@@ -370,10 +387,11 @@ void EnsembleModel::restore(const Snapshot& snapshot) {
   const auto cells = static_cast<std::int64_t>(state.cells);
   const auto nodes = static_cast<std::int64_t>(state.nodes);
   if (integer("ensemble.cells") != cells || integer("ensemble.nodes") != nodes) {
-    throw ParameterError(fmt::format(
-        "snapshot: {} cells of {} nodes; this ensemble has {} of {}; restore it into a model with the same "
-        "parameters",
-        integer("ensemble.cells"), integer("ensemble.nodes"), cells, nodes));
+    throw ParameterError(
+        fmt::format("snapshot: {} cells of {} nodes; this ensemble has {} of {}; restore it into a "
+                    "model with the same "
+                    "parameters",
+                    integer("ensemble.cells"), integer("ensemble.nodes"), cells, nodes));
   }
   state.x = reals("ensemble.x", state.x.size());
   state.y = reals("ensemble.y", state.y.size());
@@ -381,20 +399,31 @@ void EnsembleModel::restore(const Snapshot& snapshot) {
   state.time = reals("ensemble.time", 1).front();
   state.strain = reals("ensemble.strain", 1).front();
   state.step = integer("ensemble.step");
-  const bool finite = std::all_of(state.x.begin(), state.x.end(), [](double v) { return std::isfinite(v); }) &&
-                      std::all_of(state.y.begin(), state.y.end(), [](double v) { return std::isfinite(v); });
-  if (!finite || state.step < 0 || !(state.image_offset >= 0 && state.image_offset <= parts_->box.length)) {
-    throw ParameterError("snapshot: positions, step or image offset are not those of this ensemble; they "
-                         "must be finite and inside its box; restore it into a model with the same "
-                         "parameters");
+  const bool finite =
+      std::all_of(state.x.begin(), state.x.end(), [](double v) { return std::isfinite(v); }) &&
+      std::all_of(state.y.begin(), state.y.end(), [](double v) { return std::isfinite(v); });
+  if (!finite || state.step < 0 ||
+      !(state.image_offset >= 0 && state.image_offset <= parts_->box.length)) {
+    throw ParameterError(
+        "snapshot: positions, step or image offset are not those of this ensemble; they "
+        "must be finite and inside its box; restore it into a model with the same "
+        "parameters");
   }
   parts_->state = std::move(state);
   parts_->stepper.invalidate();
 }
 
-EnsembleFrame EnsembleModel::frame() const { return parts_->frame(); }
-double EnsembleModel::time_step() const { return parts_->system.time_step; }
-const StepLimit& EnsembleModel::step_limit() const { return parts_->limit; }
-double EnsembleModel::cell_area() const { return parts_->system.mesh.rest_area; }
+EnsembleFrame EnsembleModel::frame() const {
+  return parts_->frame();
+}
+double EnsembleModel::time_step() const {
+  return parts_->system.time_step;
+}
+const StepLimit& EnsembleModel::step_limit() const {
+  return parts_->limit;
+}
+double EnsembleModel::cell_area() const {
+  return parts_->system.mesh.rest_area;
+}
 
 }  // namespace hemoscale::micro

@@ -12,8 +12,9 @@ namespace hemoscale::micro {
 
 /// Many deformable cells in a given two-dimensional flow [Tsubota2006, section 3.3].
 ///
-/// Every node obeys  zeta (v - u(x)) = F,  F = -dE/dx,  E = membranes + contacts + walls, integrated
-/// by explicit Euler steps in double precision: the reference that faster versions are compared with.
+/// Every node obeys  zeta (v - u(x)) = F,  F = -dE/dx,  E = membranes + contacts + walls,
+/// integrated by explicit Euler steps in double precision: the reference that faster versions are
+/// compared with.
 ///
 /// Limits of the model: the flow is not changed by the cells, there is no hydrodynamic interaction
 /// and no lift; the mean lateral position of an isolated cell is conserved exactly.
@@ -30,10 +31,11 @@ class EnsembleModel final : public MicroModel<2> {
   EnsembleModel(EnsembleModel&&) noexcept;
   EnsembleModel& operator=(EnsembleModel&&) noexcept;
 
-  /// Shear box only: simple shear at the rate velocity_gradient(0, 1), of either sign, until the total
-  /// shear stress is known as well as `run` asks or the allowance is spent. body_force is not used:
-  /// a uniform force on the fluid changes no stress in homogeneous shear.
-  /// @throws ParameterError if the forcing is no simple shear, the rate is zero, the hematocrit is not
+  /// Shear box only: simple shear at the rate velocity_gradient(0, 1), of either sign, until the
+  /// total shear stress is known as well as `run` asks or the allowance is spent. body_force is not
+  /// used: a uniform force on the fluid changes no stress in homogeneous shear.
+  /// @throws ParameterError if the forcing is no simple shear, the rate is zero, the hematocrit is
+  /// not
   ///         that of the box, the domain is a channel, or the run is not admissible
   /// @throws NumericalError with step, time, cell, node, value, limit and remedy
   Observation<2> advance(const Forcing<2>& forcing, const Run& run) override;

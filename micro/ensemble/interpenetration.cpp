@@ -63,8 +63,10 @@ std::size_t count_interpenetrating_nodes(const EnsembleState& state, const Box& 
     const Bounds& a = bounds[cell];
     for (std::size_t other = 0; other < state.cells; ++other) {
       const Bounds& b = bounds[other];
-      const int lowest = box.walls ? 0 : static_cast<int>(std::ceil((a.lower - b.upper) / box.height));
-      const int highest = box.walls ? 0 : static_cast<int>(std::floor((a.upper - b.lower) / box.height));
+      const int lowest =
+          box.walls ? 0 : static_cast<int>(std::ceil((a.lower - b.upper) / box.height));
+      const int highest =
+          box.walls ? 0 : static_cast<int>(std::floor((a.upper - b.lower) / box.height));
       for (int row = lowest; row <= highest; ++row) {
         const double slide = row * state.image_offset;
         const int first = static_cast<int>(std::ceil((a.left - b.right - slide) / box.length));
@@ -73,7 +75,8 @@ std::size_t count_interpenetrating_nodes(const EnsembleState& state, const Box& 
           if (other == cell && row == 0 && column == 0) {
             continue;
           }
-          count += count_inside(state, cell, a, other, slide + column * box.length, row * box.height);
+          count +=
+              count_inside(state, cell, a, other, slide + column * box.length, row * box.height);
         }
       }
     }

@@ -38,7 +38,8 @@ void ProfileAverage::add_area(const EnsembleState& state) {
     double below = 0;  // area beyond the lower wall belongs to the first bin
     for (std::size_t b = 0; b < bins_; ++b) {
       const bool last = b + 1 == bins_;
-      const double line = last ? std::numeric_limits<double>::max() : width * static_cast<double>(b + 1);
+      const double line =
+          last ? std::numeric_limits<double>::max() : width * static_cast<double>(b + 1);
       const double next = area_below(x, y, state.nodes, line);
       area_[b] += next - below;
       below = next;
@@ -50,7 +51,8 @@ void ProfileAverage::add_free_layer(const EnsembleState& state) {
   // Columns of about 1 um, as an observer of a vessel would average; columns without a membrane do
   // not count.
   constexpr double column_width = 1e-6;  // [m]
-  const auto columns = static_cast<std::size_t>(std::max(1.0, std::round(box_.length / column_width)));
+  const auto columns =
+      static_cast<std::size_t>(std::max(1.0, std::round(box_.length / column_width)));
   std::vector<double> lowest(columns, box_.height);
   std::vector<double> highest(columns, 0.0);
   const double per_length = static_cast<double>(columns) / box_.length;
@@ -62,7 +64,7 @@ void ProfileAverage::add_free_layer(const EnsembleState& state) {
       const double to = std::max(state.x[i], state.x[j]) * per_length;
       const double low = std::min(state.y[i], state.y[j]);
       const double high = std::max(state.y[i], state.y[j]);
-      for (double c = std::floor(from); c <= to; ++c) {
+      for (double c = std::floor(from); c < to || c == std::floor(from); ++c) {
         const double turns = std::floor(c / static_cast<double>(columns));
         const auto column = static_cast<std::size_t>(c - turns * static_cast<double>(columns));
         lowest[column] = std::min(lowest[column], low);
@@ -103,7 +105,8 @@ LateralProfile ProfileAverage::mean() const {
   for (std::size_t b = 0; b < bins_; ++b) {
     profile.y.push_back(width * (static_cast<double>(b) + 0.5));
     profile.area_fraction.push_back(area_[b] / (samples * width * box_.length));
-    profile.cell_velocity.push_back(nodes_[b] > 0 ? velocity_[b] / static_cast<double>(nodes_[b]) : 0);
+    profile.cell_velocity.push_back(nodes_[b] > 0 ? velocity_[b] / static_cast<double>(nodes_[b])
+                                                  : 0);
   }
   profile.cell_free_layer = free_layer_ / samples;
   profile.wall_pressure = wall_force_ / (2 * samples * box_.length);

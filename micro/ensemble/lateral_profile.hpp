@@ -38,8 +38,8 @@ class ProfileAverage {
   std::int64_t samples_ = 0;
 };
 
-/// Area of a closed polygon below a horizontal line [m^2], exact: the integral of x dy along the part
-/// of its outline below the line.
+/// Area of a closed polygon below a horizontal line [m^2], exact: the integral of x dy along the
+/// part of its outline below the line.
 /// @param x, y  nodes, counter-clockwise [m]
 double area_below(const double* x, const double* y, std::size_t nodes, double line);
 

@@ -33,8 +33,9 @@ void NeighbourList::place_nodes(const EnsembleState& state, const Box& box, doub
     const double y = state.y[i] - row * box.height;
     placed_[i] = {x, y, static_cast<std::int32_t>(i), static_cast<std::int32_t>(column),
                   static_cast<std::int32_t>(row)};
-    bin_of_[i] = static_cast<std::size_t>(bin(y, box.height, rows_)) * static_cast<std::size_t>(columns_) +
-                 static_cast<std::size_t>(bin(x, box.length, columns_));
+    bin_of_[i] =
+        static_cast<std::size_t>(bin(y, box.height, rows_)) * static_cast<std::size_t>(columns_) +
+        static_cast<std::size_t>(bin(x, box.length, columns_));
     ++bin_first_[bin_of_[i] + 1];
   }
   for (std::size_t b = 0; b < bins; ++b) {
@@ -61,7 +62,8 @@ void NeighbourList::find_partners(std::size_t node, const EnsembleState& state, 
       image_row = bin_row < 0 ? -1 : 1;
       bin_row -= image_row * rows_;
     }
-    // Seen from the box, the row of images lies at image_row * offset: look at the shifted position.
+    // Seen from the box, the row of images lies at image_row * offset: look at the shifted
+    // position.
     double x = own.x - image_row * state.image_offset;
     const double turn = std::floor(x / box.length);
     x -= turn * box.length;
@@ -89,8 +91,8 @@ void NeighbourList::find_partners(std::size_t node, const EnsembleState& state, 
         }
         const int column = image_column - other.column + own.column;
         const int row = image_row - other.row + own.row;
-        const bool own_ring =
-            static_cast<std::size_t>(other.node) / state.nodes == own_cell && column == 0 && row == 0;
+        const bool own_ring = static_cast<std::size_t>(other.node) / state.nodes == own_cell &&
+                              column == 0 && row == 0;
         if (!own_ring) {
           assert(Image::is_known(column, row));
           entries_.push_back({other.node, Image::pack(column, row)});

@@ -15,10 +15,10 @@ struct Neighbour {
   std::int32_t image = 0;  // see Image
 };
 
-/// Full neighbour list: for every node, the nodes of other cells, or of other images of its own cell,
-/// within a range. Each node owns its sum, hence threads never write to the same place. The partners
-/// of a node are in the order of their numbers: partners beyond the cutoff add exact zeros, so the sum
-/// does not depend on when, or with which range, the list was built.
+/// Full neighbour list: for every node, the nodes of other cells, or of other images of its own
+/// cell, within a range. Each node owns its sum, hence threads never write to the same place. The
+/// partners of a node are in the order of their numbers: partners beyond the cutoff add exact
+/// zeros, so the sum does not depend on when, or with which range, the list was built.
 class NeighbourList {
  public:
   /// Rebuild for the present positions; a grid of bins makes the cost proportional to the nodes.
@@ -39,12 +39,12 @@ class NeighbourList {
 
   // Scratch: nodes moved into the box and sorted into bins.
   struct Placed {
-    double x, y;             // [m] in the box
+    double x, y;  // [m] in the box
     std::int32_t node;
     std::int32_t column, row;  // the node lies at (x + column length + row offset, y + row height)
   };
-  std::vector<Placed> placed_;        // by node
-  std::vector<Placed> sorted_;        // by bin
+  std::vector<Placed> placed_;  // by node
+  std::vector<Placed> sorted_;  // by bin
   std::vector<std::size_t> bin_first_;
   std::vector<std::size_t> bin_of_;
   int columns_ = 1;

@@ -126,7 +126,8 @@ EnsembleState pack_once(const EnsembleSystem& system, const std::vector<Vector<2
                            (row + 0.5) * site_y + numbers.between(-play_y, play_y));
     place(outline, centre, numbers.between(0, 2 * std::numbers::pi), state);
   }
-  // Time for a pushed cell to move by the compression of its site, in units in which contacts relax.
+  // Time for a pushed cell to move by the compression of its site, in units in which contacts
+  // relax.
   const int compressions = lattice.dilation > 1 ? 400 * speed_divisor : 0;
   // Without compression the cells have not touched.
   const int settling = compressions > 0 ? 4000 * speed_divisor : 0;
@@ -155,7 +156,8 @@ EnsembleState pack_once(const EnsembleSystem& system, const std::vector<Vector<2
 }  // namespace
 
 EnsembleState pack_cells(const EnsembleSystem& system, const std::vector<Vector<2>>& outline,
-                         std::size_t cells, const Box& box, std::uint64_t seed, std::uint64_t stream) {
+                         std::size_t cells, const Box& box, std::uint64_t seed,
+                         std::uint64_t stream) {
   if (system.contact.scale == 0) {
     Numbers numbers(seed, stream, 0);
     EnsembleState state = empty_state(cells, outline.size());
@@ -178,12 +180,15 @@ EnsembleState pack_cells(const EnsembleSystem& system, const std::vector<Vector<
   const double fraction = static_cast<double>(cells) * system.mesh.rest_area / box.area();
   const double rest_distance = std::sqrt(system.contact.rest_squared);
   const double layer = 0.5 * rest_distance * system.mesh.rest_perimeter;
-  throw ParameterError(fmt::format(
-      "packing: {} of {} nodes lie inside other cells after {} attempts at an area fraction of {:.3g}, "
-      "which is {:.3g} with half the contact rest distance {:.3g} m around every cell; up to about 0.85 of "
-      "the latter can be packed; lower the hematocrit or the rest distance, or raise the contact stiffness",
-      inside, cells * outline.size(), attempts, fraction,
-      fraction * (1 + layer / system.mesh.rest_area), rest_distance));
+  throw ParameterError(
+      fmt::format("packing: {} of {} nodes lie inside other cells after {} attempts at an area "
+                  "fraction of {:.3g}, "
+                  "which is {:.3g} with half the contact rest distance {:.3g} m around every cell; "
+                  "up to about 0.85 of "
+                  "the latter can be packed; lower the hematocrit or the rest distance, or raise "
+                  "the contact stiffness",
+                  inside, cells * outline.size(), attempts, fraction,
+                  fraction * (1 + layer / system.mesh.rest_area), rest_distance));
 }
 
 }  // namespace hemoscale::micro

@@ -2,9 +2,9 @@
 
 namespace hemoscale::micro {
 
-void add_pair_forces(const EnsembleState& state, const NeighbourList& list, const ImageTable& images,
-                     const PairPotential& potential, std::size_t first, std::size_t last,
-                     double* force_x, double* force_y) {
+void add_pair_forces(const EnsembleState& state, const NeighbourList& list,
+                     const ImageTable& images, const PairPotential& potential, std::size_t first,
+                     std::size_t last, double* force_x, double* force_y) {
   const double* const x = state.x.data();
   const double* const y = state.y.data();
   const double* const image_x = images.x.data();

@@ -4,13 +4,14 @@ namespace hemoscale::micro {
 
 /// Force between two nodes of different cells, per unit depth, for d = x_i - x_j and s = d.d:
 ///
-///   F_i = A (rc^2 - s)^2 (r0^2 - s) d  for s < rc^2, times `attraction` where s > r0^2, else 0    [N/m]
+///   F_i = A (rc^2 - s)^2 (r0^2 - s) d  for s < rc^2, times `attraction` where s > r0^2, else 0
+///   [N/m]
 ///
-/// A polynomial of the squared distance: no root, bounded stiffness, once continuously differentiable
-/// at rc, a kink at r0. With w = rc^2 - s and b = rc^2 - r0^2 its energy is
+/// A polynomial of the squared distance: no root, bounded stiffness, once continuously
+/// differentiable at rc, a kink at r0. With w = rc^2 - s and b = rc^2 - r0^2 its energy is
 ///
 ///   U = attraction (A/2) (w^4/4 - b w^3/3)                       for w < b (attractive branch)
-///   U = (A/2) (w^4/4 - b w^3/3) + (1 - attraction) A b^4/24      for w > b                       [N]
+///   U = (A/2) (w^4/4 - b w^3/3) + (1 - attraction) A b^4/24      for w > b [N]
 ///
 /// The scale follows from the stiffness k = -dF/dr at r0 on the repulsive side: k = 2 A r0^2 b^2.
 struct PairPotential {

@@ -9,8 +9,8 @@
 namespace hemoscale::micro {
 
 /// Simple shear u = g y e_x in a box that is periodic in both directions; the images above and
-/// below slide with the flow [Lees and Edwards 1972]. The area of the box follows from the number of
-/// cells, their area and the hematocrit.
+/// below slide with the flow [Lees and Edwards 1972]. The area of the box follows from the number
+/// of cells, their area and the hematocrit.
 struct ShearBox {
   double aspect_ratio = 1;  // [-] length over height
 };
@@ -21,8 +21,8 @@ struct PlaneChannel {
   double height = 0;  // [m]
 };
 
-/// Whose drag the coefficient describes. The choice moves the explicit limit of the time step by the
-/// number of nodes over two or so, hence it is a named part of every case.
+/// Whose drag the coefficient describes. The choice moves the explicit limit of the time step by
+/// the number of nodes over two or so, hence it is a named part of every case.
 enum class DragConvention {
   cell,  // coefficient * viscosity is the drag of a cell, shared equally by its nodes
   node   // coefficient * viscosity is the drag of every node
@@ -35,7 +35,7 @@ struct DragParameters {
 
 /// Soft repulsion and weak attraction between nodes of different cells (see pair_potential.hpp).
 struct ContactParameters {
-  double stiffness = 10;          // [Pa] -dF/dr at the rest distance, repulsive side, per pair and depth
+  double stiffness = 10;  // [Pa] -dF/dr at the rest distance, repulsive side, per pair and depth
   double rest_distance = 0.5e-6;  // [m] where the force of a pair vanishes
   double cutoff = 0.8e-6;         // [m] beyond which nodes do not feel each other
   double attraction = 0.05;       // [-] scale of the attractive branch over the repulsive one
@@ -43,7 +43,7 @@ struct ContactParameters {
 
 /// Repulsion of a node by a wall (see wall_potential.hpp).
 struct WallParameters {
-  double stiffness = 10;   // [Pa] per node and unit depth
+  double stiffness = 10;  // [Pa] per node and unit depth
   double range = 0.5e-6;  // [m]
 };
 
@@ -60,10 +60,11 @@ struct EnsembleParameters {
   ContactParameters contact;
   WallParameters wall;
   std::optional<double> time_step = std::nullopt;  // [s] default: 0.8 of the explicit limit
-  bool force = false;            // run although the time step exceeds the limit
-  double sampling_strain = 0.05;  // [-] between samples of the stress
-  double segment_strain_limit = 1;  // [-] a segment stretched or compressed more than this ends the run
-  int threads = 1;                  // any number gives the same bits
+  bool force = false;                              // run although the time step exceeds the limit
+  double sampling_strain = 0.05;                   // [-] between samples of the stress
+  double segment_strain_limit =
+      1;            // [-] a segment stretched or compressed more than this ends the run
+  int threads = 1;  // any number gives the same bits
 };
 
 }  // namespace hemoscale::micro

@@ -2,8 +2,10 @@
 
 // Versions for wider vectors are chosen when the program starts. Contraction to fused operations is
 // off, so that all of them give the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define HEMOSCALE_VECTOR_CLONES [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
+#define HEMOSCALE_VECTOR_CLONES \
+  [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
 #else
 #define HEMOSCALE_VECTOR_CLONES
 #endif
@@ -13,9 +15,9 @@ namespace {
 
 template <class Bending>
 [[gnu::always_inline]] inline void forces(const Stretch& stretch, const Bending& bending,
-                                          const AreaPenalty& area, const RingMesh& mesh, const double* x,
-                                          const double* y, RingGeometry& ring, double* force_x,
-                                          double* force_y) {
+                                          const AreaPenalty& area, const RingMesh& mesh,
+                                          const double* x, const double* y, RingGeometry& ring,
+                                          double* force_x, double* force_y) {
   measure(x, y, ring);
   add_loads(stretch, mesh, ring);
   add_loads(bending, mesh, ring);
@@ -32,8 +34,8 @@ void turning_angle_forces(const Stretch& stretch, const TurningAngleBending& ben
 
 HEMOSCALE_VECTOR_CLONES
 void half_angle_forces(const Stretch& stretch, const HalfAngleBending& bending,
-                       const AreaPenalty& area, const RingMesh& mesh, const double* x, const double* y,
-                       RingGeometry& ring, double* force_x, double* force_y) {
+                       const AreaPenalty& area, const RingMesh& mesh, const double* x,
+                       const double* y, RingGeometry& ring, double* force_x, double* force_y) {
   forces(stretch, bending, area, mesh, x, y, ring, force_x, force_y);
 }
 

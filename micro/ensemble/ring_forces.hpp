@@ -20,8 +20,8 @@ struct MembraneLaws {
 
 MembraneLaws make_membrane_laws(const MembraneParameters& parameters);
 
-/// Elastic forces on the nodes of one ring [N/m], overwriting force_x and force_y. The shape is left
-/// in `scratch`.
+/// Elastic forces on the nodes of one ring [N/m], overwriting force_x and force_y. The shape is
+/// left in `scratch`.
 void ring_forces(const MembraneLaws& laws, const RingMesh& mesh, const double* x, const double* y,
                  RingGeometry& scratch, double* force_x, double* force_y);
 

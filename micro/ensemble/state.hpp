@@ -6,8 +6,8 @@
 
 namespace hemoscale::micro {
 
-/// Everything that changes while an ensemble moves. Node k of cell c is entry c * nodes + k; every cell
-/// is whole, and its centre lies in the box or has left it by a small part of it.
+/// Everything that changes while an ensemble moves. Node k of cell c is entry c * nodes + k; every
+/// cell is whole, and its centre lies in the box or has left it by a small part of it.
 struct EnsembleState {
   std::size_t cells = 0;
   std::size_t nodes = 0;    // per cell

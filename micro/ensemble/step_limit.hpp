@@ -24,10 +24,11 @@ struct StepLimit {
 ///
 ///   max( 4 E_l / l0,  16 kappa g / l0^3,  k_A P^2 / (N A0) )
 ///
-/// for the shortest segment l0. The first two belong to zigzags along and across the membrane, which
-/// do not mix where the turning angle is small: for a regular polygon both are exact but for the factor
-/// cos^2(pi/N). The third belongs to swelling and excites no zigzag. g = 1 for turning angles; for half
-/// angles g = (1 + t^2)(1 + 3 t^2) with the largest t = |tan((theta - theta0)/2)| of the reference shape.
+/// for the shortest segment l0. The first two belong to zigzags along and across the membrane,
+/// which do not mix where the turning angle is small: for a regular polygon both are exact but for
+/// the factor cos^2(pi/N). The third belongs to swelling and excites no zigzag. g = 1 for turning
+/// angles; for half angles g = (1 + t^2)(1 + 3 t^2) with the largest t = |tan((theta - theta0)/2)|
+/// of the reference shape.
 ///
 /// It is an estimate, not a bound: bending and stretching mix where the outline turns sharply, and
 /// both stiffen where a membrane is compressed. The default step keeps a fifth in hand.
@@ -35,8 +36,9 @@ double ring_stiffness(const RingMesh& mesh, const RingMesh& natural_outline,
                       const MembraneParameters& membrane);
 
 /// Bound on the eigenvalue that contacts add [Pa]: two rows of nodes face each other at the spacing
-/// l0; K = max over distance and offset of the sum of U'' cos^2 + (U'/r) sin^2 over the nodes of the
-/// other row that act on one node, along or across the rows; both rows move against each other: 2 K.
+/// l0; K = max over distance and offset of the sum of U'' cos^2 + (U'/r) sin^2 over the nodes of
+/// the other row that act on one node, along or across the rows; both rows move against each other:
+/// 2 K.
 double contact_stiffness(const PairPotential& potential, double spacing);
 
 /// Limit of an ensemble.

@@ -28,8 +28,8 @@ Vector<2> centre(const EnsembleState& state, std::size_t cell) {
   return sum / static_cast<double>(state.nodes);
 }
 
-/// Sum and largest of the squared forces. Eight partial results in fixed order: the same bits at any
-/// vector width. The sum is not finite if any force is not.
+/// Sum and largest of the squared forces. Eight partial results in fixed order: the same bits at
+/// any vector width. The sum is not finite if any force is not.
 void sum_squares(const double* force_x, const double* force_y, std::size_t n, double& sum,
                  double& largest) {
   constexpr std::size_t lanes = 8;
@@ -99,8 +99,7 @@ void Stepper::forces_on_cell(std::size_t cell, const EnsembleState& state, const
       sums.membrane_virial += Vector<2>(force_x[i], force_y[i]) *
                               (Vector<2>(state.x[i], state.y[i]) - middle).transpose();
     }
-    sums.contact_virial =
-        sum_pairs(state, list_, images, system_.contact, first, last).virial;
+    sums.contact_virial = sum_pairs(state, list_, images, system_.contact, first, last).virial;
   }
   add_pair_forces(state, list_, images, system_.contact, first, last, force_x, force_y);
   if (box.walls) {
@@ -143,12 +142,14 @@ void Stepper::watch(const EnsembleState& state) const {
       for (std::size_t k = 0; k < state.nodes; ++k) {
         const std::size_t i = cell * state.nodes + k;
         if (!std::isfinite(force_x_[i] * force_x_[i] + force_y_[i] * force_y_[i])) {
-          throw NumericalError(fmt::format(
-              "step {}, time {:.6g} s: the force on node {} of cell {} is ({:.6g}, {:.6g}) N/m; it must be "
-              "finite; the time step is {:.4g} s and its explicit limit {:.4g} s: reduce the time step, or "
-              "stiffen membrane and contact if it is below the limit",
-              state.step, state.time, k, cell, force_x_[i], force_y_[i], system_.time_step,
-              system_.explicit_limit));
+          throw NumericalError(
+              fmt::format("step {}, time {:.6g} s: the force on node {} of cell {} is ({:.6g}, "
+                          "{:.6g}) N/m; it must be "
+                          "finite; the time step is {:.4g} s and its explicit limit {:.4g} s: "
+                          "reduce the time step, or "
+                          "stiffen membrane and contact if it is below the limit",
+                          state.step, state.time, k, cell, force_x_[i], force_y_[i],
+                          system_.time_step, system_.explicit_limit));
         }
       }
     }
@@ -167,15 +168,17 @@ void Stepper::watch(const EnsembleState& state) const {
           worst = k;
         }
       }
-      throw NumericalError(fmt::format(
-          "step {}, time {:.6g} s: the segment after node {} of cell {} is stretched or compressed by a "
-          "factor {:.4g}; at most {:.4g} is admitted; the time step is {:.4g} s and its explicit limit "
-          "{:.4g} s: {}",
-          state.step, state.time, worst, cell, 1 + strain, 1 + limit, system_.time_step,
-          system_.explicit_limit,
-          system_.time_step > system_.explicit_limit
-              ? "reduce the time step below the limit"
-              : "raise the stretch modulus or lower the shear rate"));
+      throw NumericalError(
+          fmt::format("step {}, time {:.6g} s: the segment after node {} of cell {} is stretched "
+                      "or compressed by a "
+                      "factor {:.4g}; at most {:.4g} is admitted; the time step is {:.4g} s and "
+                      "its explicit limit "
+                      "{:.4g} s: {}",
+                      state.step, state.time, worst, cell, 1 + strain, 1 + limit, system_.time_step,
+                      system_.explicit_limit,
+                      system_.time_step > system_.explicit_limit
+                          ? "reduce the time step below the limit"
+                          : "raise the stretch modulus or lower the shear rate"));
     }
   }
 }

@@ -54,9 +54,9 @@ class Stepper {
   EnsembleSystem system_;
   NeighbourList list_;
   bool list_is_valid_ = false;
-  double list_skin_ = 0;      // [m]
-  double list_travel_ = 0;    // [m] bound on the motion relative to the flow since the list was built
-  double list_strain_ = 0;    // [-] since the list was built
+  double list_skin_ = 0;    // [m]
+  double list_travel_ = 0;  // [m] bound on the motion relative to the flow since the list was built
+  double list_strain_ = 0;  // [-] since the list was built
   std::vector<double> force_x_, force_y_;  // [N/m]
   std::vector<RingGeometry> scratch_;      // per thread
   struct CellSums {

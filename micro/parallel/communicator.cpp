@@ -28,8 +28,8 @@ void require_success(int code, const char* call) {
 int message_length(std::size_t size, int rank) {
   if (size > static_cast<std::size_t>(INT_MAX)) {
     throw EnvironmentError(fmt::format(
-        "rank {}: a message of {} bytes exceeds the {} bytes that MPI passes at once; send less", rank,
-        size, INT_MAX));
+        "rank {}: a message of {} bytes exceeds the {} bytes that MPI passes at once; send less",
+        rank, size, INT_MAX));
   }
   return static_cast<int>(size);
 }
@@ -104,7 +104,8 @@ std::vector<std::string> Communicator::all_gather(const std::string& bytes) cons
   std::vector<std::string> all;
   all.reserve(ranks);
   for (std::size_t i = 0; i < ranks; ++i) {
-    all.push_back(joined.substr(static_cast<std::size_t>(offsets[i]), static_cast<std::size_t>(lengths[i])));
+    all.push_back(
+        joined.substr(static_cast<std::size_t>(offsets[i]), static_cast<std::size_t>(lengths[i])));
   }
   return all;
 }

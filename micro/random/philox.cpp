@@ -6,8 +6,12 @@
 namespace hemoscale::micro {
 namespace {
 
-std::uint32_t low(std::uint64_t word) { return static_cast<std::uint32_t>(word); }
-std::uint32_t high(std::uint64_t word) { return static_cast<std::uint32_t>(word >> 32U); }
+std::uint32_t low(std::uint64_t word) {
+  return static_cast<std::uint32_t>(word);
+}
+std::uint32_t high(std::uint64_t word) {
+  return static_cast<std::uint32_t>(word >> 32U);
+}
 
 std::array<std::uint32_t, 4> block(const Draw& draw) {
   return philox({low(draw.counter), high(draw.counter), low(draw.stream), high(draw.stream)},

@@ -69,6 +69,9 @@ void write_attribute(const File& file, const std::string& object, const std::str
 }  // namespace
 
 Silence::Silence() {
+  // Every file is closed here, with a check. After a failure HDF5 would try once more at the end of
+  // the process, in vain and aloud.
+  H5dont_atexit();
   H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

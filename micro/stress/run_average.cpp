@@ -12,24 +12,28 @@ namespace hemoscale::micro {
 
 void require_admissible(const Run& run) {
   if (!(run.warm_up_strain >= 0) || !std::isfinite(run.warm_up_strain)) {
-    throw ParameterError(fmt::format("warm-up strain {}; it must be finite and not negative; choose 0 "
-                                     "for none",
-                                     run.warm_up_strain));
+    throw ParameterError(
+        fmt::format("warm-up strain {}; it must be finite and not negative; choose 0 "
+                    "for none",
+                    run.warm_up_strain));
   }
   if (!(run.minimum_strain > 0) || !std::isfinite(run.minimum_strain)) {
-    throw ParameterError(fmt::format("minimum strain {}; it must be finite and positive; choose "
-                                     "several correlation strains, such as 20",
-                                     run.minimum_strain));
+    throw ParameterError(
+        fmt::format("minimum strain {}; it must be finite and positive; choose "
+                    "several correlation strains, such as 20",
+                    run.minimum_strain));
   }
   if (!(run.maximum_strain >= run.minimum_strain) || !std::isfinite(run.maximum_strain)) {
-    throw ParameterError(fmt::format("maximum strain {} with a minimum of {}; it must be finite and at "
-                                     "least the minimum; raise it",
-                                     run.maximum_strain, run.minimum_strain));
+    throw ParameterError(
+        fmt::format("maximum strain {} with a minimum of {}; it must be finite and at "
+                    "least the minimum; raise it",
+                    run.maximum_strain, run.minimum_strain));
   }
   if (!(run.relative_standard_error > 0 && run.relative_standard_error < 1)) {
-    throw ParameterError(fmt::format("relative standard error {}; it must lie between 0 and 1; choose "
-                                     "such as 0.02",
-                                     run.relative_standard_error));
+    throw ParameterError(
+        fmt::format("relative standard error {}; it must lie between 0 and 1; choose "
+                    "such as 0.02",
+                    run.relative_standard_error));
   }
 }
 

@@ -12,9 +12,9 @@ void require_admissible(const Run& run);
 
 /// Collects equally spaced samples of the stress in simple shear and decides when a run has ended:
 /// when the relative standard error of the total shear stress is reached with at least 20 effective
-/// samples, not before the minimum strain; or when the maximum strain is spent. The error is looked at
-/// when the averaged strain has grown by the larger of 1 and one twentieth since the last look: looking
-/// after every sample would end runs at lucky moments.
+/// samples, not before the minimum strain; or when the maximum strain is spent. The error is looked
+/// at when the averaged strain has grown by the larger of 1 and one twentieth since the last look:
+/// looking after every sample would end runs at lucky moments.
 class RunAverage {
  public:
   /// @param spacing  strain between samples [-]
@@ -34,9 +34,9 @@ class RunAverage {
   bool is_precise() const;
 
   Run run_;
-  double shear_rate_ = 0;        // [1/s] signed
-  double plasma_viscosity_ = 0;  // [Pa s]
-  double spacing_ = 0;           // [-] strain
+  double shear_rate_ = 0;                  // [1/s] signed
+  double plasma_viscosity_ = 0;            // [Pa s]
+  double spacing_ = 0;                     // [-] strain
   std::vector<double> shear_stress_;       // [Pa] total
   std::vector<double> normal_difference_;  // [Pa]
   Tensor<2> sum_ = Tensor<2>::Zero();      // [Pa] of the particle stress

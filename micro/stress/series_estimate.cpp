@@ -15,8 +15,12 @@
 namespace hemoscale::micro {
 namespace {
 
+/// Summed relative to the first sample: exact for a constant.
 double mean_of(std::span<const double> series) {
-  return std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(series.size());
+  const double origin = series.front();
+  const double sum = std::accumulate(series.begin(), series.end(), 0.0,
+                                     [&](double s, double value) { return s + (value - origin); });
+  return origin + sum / static_cast<double>(series.size());
 }
 
 /// Mean product of deviations `lag` samples apart.
@@ -72,10 +76,10 @@ Estimate estimate_mean(std::span<const double> series, double spacing) {
 
 double block_standard_error(std::span<const double> series, int blocks) {
   if (blocks < 2 || static_cast<std::size_t>(blocks) > series.size()) {
-    throw ParameterError(
-        fmt::format("{} blocks of {} samples; at least two blocks and at most as many as samples are "
-                    "possible; choose another number of blocks",
-                    blocks, series.size()));
+    throw ParameterError(fmt::format(
+        "{} blocks of {} samples; at least two blocks and at most as many as samples are "
+        "possible; choose another number of blocks",
+        blocks, series.size()));
   }
   const auto count = static_cast<std::size_t>(blocks);
   const std::size_t length = series.size() / count;

@@ -14,8 +14,8 @@ namespace {
 
 void require_positive(double value, const char* name, const char* remedy) {
   if (!(value > 0) || !std::isfinite(value)) {
-    throw ParameterError(
-        fmt::format("synthetic model: {} is {}; it must be finite and positive; {}", name, value, remedy));
+    throw ParameterError(fmt::format(
+        "synthetic model: {} is {}; it must be finite and positive; {}", name, value, remedy));
   }
 }
 
@@ -25,16 +25,18 @@ SyntheticModel::SyntheticModel(SyntheticParameters parameters, std::uint64_t see
                                std::uint64_t stream)
     : parameters_(std::move(parameters)), seed_(seed), stream_(stream) {
   if (!parameters_.law) {
-    throw ParameterError("synthetic model: there is no law; a function of shear rate and hematocrit is "
-                         "needed; give one");
+    throw ParameterError(
+        "synthetic model: there is no law; a function of shear rate and hematocrit is "
+        "needed; give one");
   }
   require_positive(parameters_.plasma_viscosity, "plasma viscosity", "give it in Pa s");
   require_positive(parameters_.correlation_strain, "correlation strain", "choose such as 1");
   require_positive(parameters_.sampling_strain, "sampling strain", "choose such as 0.05");
   if (!(parameters_.noise >= 0) || !std::isfinite(parameters_.noise)) {
-    throw ParameterError(fmt::format("synthetic model: noise is {}; it must be finite and not "
-                                     "negative; choose 0 for none",
-                                     parameters_.noise));
+    throw ParameterError(
+        fmt::format("synthetic model: noise is {}; it must be finite and not "
+                    "negative; choose 0 for none",
+                    parameters_.noise));
   }
   noise_ = normal({seed_, stream_, counter_++});
 }
@@ -51,15 +53,17 @@ Observation<2> SyntheticModel::advance(const Forcing<2>& forcing, const Run& run
   const Tensor<2> rate = 0.5 * (forcing.velocity_gradient + forcing.velocity_gradient.transpose());
   const double shear_rate = std::sqrt(2.0) * rate.norm();
   if (!(shear_rate > 0) || !std::isfinite(shear_rate)) {
-    throw ParameterError(fmt::format("synthetic model: shear rate {} 1/s; it must be finite and "
-                                     "positive; leave such points out of the sampling",
-                                     shear_rate));
+    throw ParameterError(
+        fmt::format("synthetic model: shear rate {} 1/s; it must be finite and "
+                    "positive; leave such points out of the sampling",
+                    shear_rate));
   }
   const double viscosity = parameters_.law(shear_rate, forcing.hematocrit);
   if (!(viscosity > 0) || !std::isfinite(viscosity)) {
-    throw ParameterError(fmt::format("synthetic model: the law gives {} Pa s at {} 1/s and hematocrit "
-                                     "{}; it must be finite and positive; correct the law",
-                                     viscosity, shear_rate, forcing.hematocrit));
+    throw ParameterError(
+        fmt::format("synthetic model: the law gives {} Pa s at {} 1/s and hematocrit "
+                    "{}; it must be finite and positive; correct the law",
+                    viscosity, shear_rate, forcing.hematocrit));
   }
   const double direction = forcing.velocity_gradient(0, 1) < 0 ? -1 : 1;
   const double spacing = parameters_.sampling_strain;
@@ -96,18 +100,20 @@ void SyntheticModel::restore(const Snapshot& snapshot) {
   const auto real = [&](const char* name) {
     const auto found = snapshot.reals.find(name);
     if (found == snapshot.reals.end() || found->second.size() != 1) {
-      throw ParameterError(fmt::format("snapshot: no single value '{}'; one of a synthetic model is "
-                                       "needed; restore it into the kind of model that wrote it",
-                                       name));
+      throw ParameterError(
+          fmt::format("snapshot: no single value '{}'; one of a synthetic model is "
+                      "needed; restore it into the kind of model that wrote it",
+                      name));
     }
     return found->second.front();
   };
   const auto integer = [&](const char* name) {
     const auto found = snapshot.integers.find(name);
     if (found == snapshot.integers.end() || found->second.size() != 1) {
-      throw ParameterError(fmt::format("snapshot: no single value '{}'; one of a synthetic model is "
-                                       "needed; restore it into the kind of model that wrote it",
-                                       name));
+      throw ParameterError(
+          fmt::format("snapshot: no single value '{}'; one of a synthetic model is "
+                      "needed; restore it into the kind of model that wrote it",
+                      name));
     }
     return static_cast<std::uint64_t>(found->second.front());
   };

@@ -13,8 +13,8 @@ struct SyntheticParameters {
   std::function<double(double shear_rate, double hematocrit)> law;  // [Pa s] of |shear rate| [1/s]
   double plasma_viscosity = 1.2e-3;  // [Pa s] only splits the stress into plasma and particles
   double noise = 0.05;               // [-] standard deviation of the stress over its mean
-  double correlation_strain = 1;     // [-] of the noise: correlation exp(-strain/correlation_strain)
-  double sampling_strain = 0.05;     // [-] between samples
+  double correlation_strain = 1;  // [-] of the noise: correlation exp(-strain/correlation_strain)
+  double sampling_strain = 0.05;  // [-] between samples
 };
 
 /// Ends its runs by the same rule and with the same estimator as the ensemble.

@@ -74,6 +74,15 @@ inline micro::Run short_run() {
   return run;
 }
 
+/// For models without noise, where one sample is as good as many.
+inline micro::Run exact_run() {
+  micro::Run run;
+  run.minimum_strain = 1;
+  run.maximum_strain = 2;
+  run.relative_standard_error = 0.02;
+  return run;
+}
+
 inline LoopOptions loop_options(const micro::Run& run) {
   LoopOptions options;
   options.run = run;

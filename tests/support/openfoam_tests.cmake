@@ -23,3 +23,11 @@ hemoscale_test(NAME openfoam_reader_test LABEL openfoam TIMEOUT 300
 target_compile_definitions(openfoam_reader_test PRIVATE
   HEMOSCALE_SAMPLER="$<TARGET_FILE:openfoam_decomposed_sampler>")
 add_dependencies(openfoam_reader_test openfoam_decomposed_sampler)
+
+hemoscale_test(NAME openfoam_viscosity_test LABEL openfoam TIMEOUT 300
+  LIBRARIES hemoscale_openfoam_test_support hemoscale_macro
+  SOURCES ${openfoam_tests}/viscosity_model_test.cpp)
+
+hemoscale_test(NAME openfoam_plugin_test LABEL openfoam TIMEOUT 300
+  LIBRARIES hemoscale_openfoam_test_support
+  SOURCES ${openfoam_tests}/function_object_test.cpp)

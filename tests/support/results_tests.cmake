@@ -2,6 +2,7 @@ find_package(nlohmann_json 3.11 REQUIRED)
 
 hemoscale_test(NAME results_unit_test LABEL unit
   SOURCES unit/results/checkpoint_test.cpp
+          unit/results/plot_test.cpp
           unit/results/progress_test.cpp
           unit/results/provenance_test.cpp
           unit/results/series_test.cpp
@@ -9,9 +10,6 @@ hemoscale_test(NAME results_unit_test LABEL unit
           unit/results/trajectory_file_test.cpp
           unit/results/xdmf_test.cpp
   LIBRARIES hemoscale_snapshot hemoscale_report nlohmann_json::nlohmann_json)
-target_compile_definitions(results_unit_test PRIVATE
-  HEMOSCALE_TEST_FOLDER="${CMAKE_CURRENT_SOURCE_DIR}")
-
 hemoscale_test(NAME results_property_test LABEL property
   SOURCES property/results/damaged_files_test.cpp
   LIBRARIES hemoscale_snapshot)

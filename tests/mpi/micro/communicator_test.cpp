@@ -10,7 +10,9 @@
 namespace hemoscale::micro {
 namespace {
 
-std::string name_of(int rank) { return std::string(static_cast<std::size_t>(rank) * 1000, 'x') + '\0' + 'r'; }
+std::string name_of(int rank) {
+  return std::string(static_cast<std::size_t>(rank) * 1000, 'x') + '\0' + 'r';
+}
 
 TEST(Communicator, gathers_strings_of_different_length_in_the_order_of_the_ranks) {
   const Communicator all(MPI_COMM_WORLD);
@@ -54,8 +56,8 @@ TEST(Communicator, lists_all_failures) {
   const Communicator all(MPI_COMM_WORLD);
   std::string expected;
   for (int rank = 0; rank < all.size(); ++rank) {
-    expected += (rank == 0 ? "" : "\n") + std::string("rank ") + std::to_string(rank) + ": reason " +
-                std::to_string(rank);
+    expected += (rank == 0 ? "" : "\n") + std::string("rank ") + std::to_string(rank) +
+                ": reason " + std::to_string(rank);
   }
   try {
     all.agree("reason " + std::to_string(all.rank()));
@@ -66,8 +68,8 @@ TEST(Communicator, lists_all_failures) {
 }
 
 TEST(Communicator, failures_of_mpi_become_exceptions) {
-  // A null communicator is an error that MPI reports on the world communicator, whose handler is set to
-  // return errors for this test alone.
+  // A null communicator is an error that MPI reports on the world communicator, whose handler is
+  // set to return errors for this test alone.
   MPI_Errhandler previous = MPI_ERRHANDLER_NULL;
   MPI_Comm_get_errhandler(MPI_COMM_WORLD, &previous);
   MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);

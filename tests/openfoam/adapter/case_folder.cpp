@@ -82,7 +82,7 @@ void CaseFolder::replace(const std::string& file, const std::string& before,
   write(file, text.replace(place, before.size(), after));
 }
 
-Run CaseFolder::run(const std::string& command,
+Outcome CaseFolder::run(const std::string& command,
                     const std::map<std::string, std::string>& more) const {
   std::map<std::string, std::string> environment = {
       {"HEMOSCALE_OPENFOAM_LIBRARY", library_file().string()},
@@ -93,10 +93,10 @@ Run CaseFolder::run(const std::string& command,
   for (const auto& [name, value] : more) environment[name] = value;
   std::string line = "cd " + quoted(path_.string()) + " && exec env";
   for (const auto& [name, value] : environment) line += " " + quoted(name + "=" + value);
-  line += " timeout 120 sh -c " + quoted(command) + " 2>&1";
+  line += " timeout 280 sh -c " + quoted(command) + " 2>&1";
   std::FILE* pipe = ::popen(line.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot start a shell");
-  Run result;
+  Outcome result;
   std::array<char, 4096> buffer{};
   std::size_t count = 0;
   while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0) {

@@ -8,7 +8,7 @@
 namespace hemoscale::test {
 
 /// Result of a program run by a test.
-struct Run {
+struct Outcome {
   int status = -1;     // exit status; 128 + signal
   std::string output;  // stdout and stderr
 };
@@ -32,8 +32,8 @@ class CaseFolder {
   void replace(const std::string& file, const std::string& before, const std::string& after) const;
 
   /// A command line for the shell, in the folder, with OpenFOAM's environment and the library of
-  /// this build; ended after two minutes.
-  Run run(const std::string& command, const std::map<std::string, std::string>& more = {}) const;
+  /// this build; ended after 280 s.
+  Outcome run(const std::string& command, const std::map<std::string, std::string>& more = {}) const;
 
   /// "mpirun ... -np N"
   static std::string mpirun(int ranks);

@@ -28,7 +28,7 @@ std::string failure_of(const std::function<void()>& code) {
 /// The template channel in micrometres, meshed; its time 0 has U and p.
 void make_meshed(CaseFolder& folder) {
   test::make_channel(folder, test::Scale::micrometre, 20);
-  const test::Run run = folder.run("blockMesh");
+  const test::Outcome run = folder.run("blockMesh");
   ASSERT_EQ(run.status, 0) << run.output;
 }
 
@@ -119,13 +119,13 @@ TEST(CaseReader, ranks_of_a_decomposed_case_agree_with_the_whole_one) {
   test::make_channel(folder, test::Scale::micrometre, 20);
   folder.append("system/controlDict", "endTime 20; writeInterval 20;");
   ASSERT_EQ(folder.run("blockMesh").status, 0);
-  const test::Run run = folder.run("simpleFoam && decomposePar -latestTime");
+  const test::Outcome run = folder.run("simpleFoam && decomposePar -latestTime");
   ASSERT_EQ(run.status, 0) << run.output;
-  const test::Run sampled = folder.run(CaseFolder::mpirun(2) + " " HEMOSCALE_SAMPLER " " +
+  const test::Outcome sampled = folder.run(CaseFolder::mpirun(2) + " " HEMOSCALE_SAMPLER " " +
                                        folder.path().string());
   EXPECT_EQ(sampled.status, 0) << sampled.output;
   EXPECT_THAT(sampled.output, HasSubstr("agree"));
-  const test::Run wrong = folder.run(CaseFolder::mpirun(3) + " " HEMOSCALE_SAMPLER " " +
+  const test::Outcome wrong = folder.run(CaseFolder::mpirun(3) + " " HEMOSCALE_SAMPLER " " +
                                      folder.path().string());
   EXPECT_NE(wrong.status, 0);
   EXPECT_THAT(wrong.output, HasSubstr("not decomposed for 3 ranks"));

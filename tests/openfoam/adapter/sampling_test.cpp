@@ -36,7 +36,7 @@ void run_newtonian(CaseFolder& folder, Scale scale) {
                 std::string("transportModel Newtonian; nu ") +
                     (scale == Scale::micrometre ? "1142.857;" : "1.142857e-6;"));
   folder.append("system/controlDict", "endTime 200; writeInterval 200;");
-  const test::Run run = folder.run("blockMesh && simpleFoam");
+  const test::Outcome run = folder.run("blockMesh && simpleFoam");
   ASSERT_EQ(run.status, 0) << run.output;
 }
 
@@ -140,7 +140,7 @@ void make_cube(CaseFolder& folder, int n, const Velocity& velocity, const Pressu
   p << ");\nboundaryField { all { type zeroGradient; } }\n";
   folder.write("0/U", u.str());
   folder.write("0/p", p.str());
-  const test::Run run = folder.run("blockMesh");
+  const test::Outcome run = folder.run("blockMesh");
   ASSERT_EQ(run.status, 0) << run.output;
 }
 

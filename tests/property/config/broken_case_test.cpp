@@ -93,7 +93,7 @@ TEST(BrokenCase, every_line_left_out) {
 TEST(BrokenCase, random_bytes_changed) {
   const std::string bytes = std::string("\0\xff\n\"'[]{}=.,#\\-+e1 \x1b", 20) + "µnaif";
   int broken = 0;
-  for (std::uint64_t seed = 0; seed < 1500; ++seed) {
+  for (std::uint64_t seed = 0; seed < 1200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Stream stream(seed);
     std::string text = valid_case;
@@ -116,7 +116,7 @@ TEST(BrokenCase, random_bytes_changed) {
     }
     if (!both_understood(text)) ++broken;
   }
-  EXPECT_GT(broken, 1000);  // the changes do reach what is checked
+  EXPECT_GT(broken, 800);  // the changes do reach what is checked
 }
 
 TEST(BrokenCase, random_values_for_every_key) {
@@ -143,7 +143,7 @@ TEST(BrokenCase, random_values_for_every_key) {
                                            "9223372036854775807",
                                            "\"1 1/s\"",
                                            "\"\\u0000\""};
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Stream stream(seed);
     std::string text = "case.name = \"a\"\n";

@@ -42,7 +42,8 @@ Pairs all_pairs(const EnsembleState& state, const Box& box) {
       for (int row = box.walls ? 0 : -2; row <= (box.walls ? 0 : 2); ++row) {
         for (int column = -4; column <= 4; ++column) {
           const bool own = i / state.nodes == j / state.nodes && row == 0 && column == 0;
-          const double dx = state.x[i] - (state.x[j] + (column * box.length + row * state.image_offset));
+          const double dx =
+              state.x[i] - (state.x[j] + (column * box.length + row * state.image_offset));
           const double dy = state.y[i] - (state.y[j] + row * box.height);
           if (!own && dx * dx + dy * dy < range * range) {
             pairs[{i, j}] = {dx, dy};
@@ -70,8 +71,10 @@ TEST(NeighbourList, finds_the_same_pairs_as_a_search_over_all_images) {
           const auto j = static_cast<std::size_t>(other.node);
           const auto image = static_cast<std::size_t>(other.image);
           ASSERT_TRUE(expected.contains({i, j}));
-          EXPECT_NEAR(state.x[i] - state.x[j] - images.x[image], (expected.at({i, j}).first), 1e-12);
-          EXPECT_NEAR(state.y[i] - state.y[j] - images.y[image], (expected.at({i, j}).second), 1e-12);
+          EXPECT_NEAR(state.x[i] - state.x[j] - images.x[image], (expected.at({i, j}).first),
+                      1e-12);
+          EXPECT_NEAR(state.y[i] - state.y[j] - images.y[image], (expected.at({i, j}).second),
+                      1e-12);
           EXPECT_GT(other.node, previous);
           previous = other.node;
         }

@@ -61,12 +61,10 @@ TEST(Packing, is_decided_by_seed_and_stream) {
 
 TEST(Packing, that_is_impossible_is_refused_with_the_effective_fraction) {
   EnsembleParameters p;
-  p.cells = 6;
+  p.cells = 12;
   p.nodes = 24;
   p.hematocrit = 0.75;
-  p.contact.stiffness = 1;
-  p.contact.rest_distance = 2e-6;
-  p.contact.cutoff = 2.5e-6;
+  p.contact.stiffness = 1e-3;  // far too soft to keep cells apart
   try {
     const EnsembleModel model(p, 1);
     FAIL() << inside(model, p);

@@ -16,7 +16,9 @@ Tensor<2> stress_now(EnsembleModel& model, double rate, double hematocrit) {
   return model.advance_by(shear(rate, hematocrit), model.time_step()).particle_stress;
 }
 
-double scale_of(const Tensor<2>& stress) { return stress.cwiseAbs().maxCoeff(); }
+double scale_of(const Tensor<2>& stress) {
+  return stress.cwiseAbs().maxCoeff();
+}
 
 TEST(ParticleStress, of_a_stretched_cell_is_positive_along_the_stretch) {
   EnsembleModel model(test::lonely_cell(), 1);
@@ -93,8 +95,9 @@ TEST(ParticleStress, does_not_notice_that_a_cell_is_replaced_by_its_image) {
   for (const auto& [columns, rows] : {std::pair{1, 0}, {0, 1}, {-1, -1}}) {
     model.restore(start);
     test::move_nodes(model, [&, c = columns, r = rows](std::size_t i, double x, double y) {
-      return i / 24 == 2 ? std::pair(x + c * frame.length + r * frame.image_offset, y + r * frame.height)
-                         : std::pair(x, y);
+      return i / 24 == 2
+                 ? std::pair(x + c * frame.length + r * frame.image_offset, y + r * frame.height)
+                 : std::pair(x, y);
     });
     const Tensor<2> stress = model.advance_by(shear(100, 0.3), 0.002).particle_stress;
     EXPECT_LE((stress - expected).cwiseAbs().maxCoeff(), 1e-8 * scale_of(expected));

@@ -54,8 +54,10 @@ TEST(EnsembleRestart, channel_continues_with_the_same_bits) {
 }
 
 TEST(EnsembleRestart, observations_of_later_runs_are_the_same) {
-  const Run run{.warm_up_strain = 0.2, .minimum_strain = 0.5, .maximum_strain = 1,
-                .relative_standard_error = 0.02};
+  const micro::Run run{.warm_up_strain = 0.2,
+                       .minimum_strain = 0.5,
+                       .maximum_strain = 1,
+                       .relative_standard_error = 0.02};
   EnsembleModel a(test::small_ensemble(), 1);
   a.advance(shear(200, 0.3), run);
   EnsembleModel b(test::small_ensemble(), 2);
@@ -100,8 +102,10 @@ TEST(EnsembleRestart, refuses_snapshots_of_others) {
 
 TEST(SyntheticRestart, continues_with_the_same_bits) {
   const SyntheticParameters parameters{.law = [](double, double) { return 3e-3; }, .noise = 0.2};
-  const Run run{.warm_up_strain = 3, .minimum_strain = 20, .maximum_strain = 40,
-                .relative_standard_error = 0.001};
+  const micro::Run run{.warm_up_strain = 3,
+                       .minimum_strain = 20,
+                       .maximum_strain = 40,
+                       .relative_standard_error = 0.001};
   SyntheticModel whole(parameters, 4, 2);
   whole.advance(shear(10, 0.3), run);
   SyntheticModel other(parameters, 0, 0);

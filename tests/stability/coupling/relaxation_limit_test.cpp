@@ -26,7 +26,7 @@ struct Iteration {
 
 Iteration iterate(double factor, int passes) {
   const micro::Communicator alone;
-  LoopOptions options = testing::loop_options(testing::short_run());
+  LoopOptions options = testing::loop_options(testing::exact_run());
   options.bounds.shear_thinning = false;
   options.memory = Memory::latest;
   options.relaxation = ConstantRelaxation{factor};

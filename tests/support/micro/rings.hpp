@@ -14,13 +14,13 @@ namespace hemoscale::test {
 
 using Polygon = std::vector<micro::Vector<2>>;
 
-/// Counter-clockwise, usually not convex, of the size of a red cell; the same for the same seed.
+/// Counter-clockwise, not convex, of the size of a red cell; the same for the same seed.
 inline Polygon random_polygon(int nodes, std::uint64_t seed) {
   Polygon polygon;
   for (int i = 0; i < nodes; ++i) {
     const auto counter = static_cast<std::uint64_t>(i);
-    const double radius = 3e-6 * (1 + 0.4 * (micro::uniform({seed, 0, counter}) - 0.5));
-    const double jitter = 0.5 * (micro::uniform({seed, 1, counter}) - 0.5);
+    const double radius = 3e-6 * (1 + 0.25 * (micro::uniform({seed, 0, counter}) - 0.5));
+    const double jitter = 0.3 * (micro::uniform({seed, 1, counter}) - 0.5);
     const double angle = 2 * std::numbers::pi * (i + jitter) / nodes;
     polygon.emplace_back(radius * std::cos(angle), 0.7 * radius * std::sin(angle));
   }

@@ -67,8 +67,9 @@ TEST(Kinematics, vorticity_is_twice_the_angular_velocity) {
 
 TEST(Kinematics, vorticity_of_a_transposed_gradient_has_the_opposite_sign) {
   const Tensor<2> L = asymmetric_plane();
-  EXPECT_EQ(vorticity(Tensor<2>(L.transpose())), -vorticity(L));
-  EXPECT_EQ(shear_rate<2>(Tensor<2>(L.transpose())), shear_rate<2>(L));
+  const Tensor<2> as_openfoam_stores_it = L.transpose();
+  EXPECT_EQ(vorticity(as_openfoam_stores_it), -vorticity(L));
+  EXPECT_EQ(shear_rate<2>(as_openfoam_stores_it), shear_rate<2>(L));
 }
 
 TEST(Kinematics, plane_vorticity_is_the_third_component_of_that_in_space) {

@@ -17,7 +17,9 @@ using test::small_ensemble;
 using testing::HasSubstr;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr Run run{.warm_up_strain = 0.1, .minimum_strain = 0.2, .maximum_strain = 0.4,
+constexpr Run run{.warm_up_strain = 0.1,
+                  .minimum_strain = 0.2,
+                  .maximum_strain = 0.4,
                   .relative_standard_error = 0.02};
 
 std::string fault_of(const EnsembleParameters& p) {
@@ -132,14 +134,16 @@ TEST(EnsembleModel, advance_by_refuses_wrong_durations_and_profiles) {
 TEST(EnsembleModel, observer_sees_every_interval_once) {
   EnsembleModel model(small_ensemble(), 1);
   std::vector<double> strains;
-  model.observe(FrameClock::strain, 0.1, [&](const EnsembleFrame& f) { strains.push_back(f.strain); });
+  model.observe(FrameClock::strain, 0.1,
+                [&](const EnsembleFrame& f) { strains.push_back(f.strain); });
   model.advance_by(shear(100, 0.3), 0.00555);
   model.advance_by(shear(100, 0.3), 0.005);
   ASSERT_EQ(strains.size(), 10U);
   for (std::size_t i = 0; i < strains.size(); ++i) {
     EXPECT_NEAR(strains[i], 0.1 * static_cast<double>(i + 1), 2 * 100 * model.time_step());
   }
-  model.observe(FrameClock::time, 0.001, [&](const EnsembleFrame& f) { strains.push_back(f.time); });
+  model.observe(FrameClock::time, 0.001,
+                [&](const EnsembleFrame& f) { strains.push_back(f.time); });
   model.advance_by(shear(100, 0.3), 0.0021);
   EXPECT_EQ(strains.size(), 12U);
   EXPECT_THROW(model.observe(FrameClock::time, 0, nullptr), ParameterError);

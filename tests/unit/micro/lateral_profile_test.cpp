@@ -14,8 +14,14 @@ EnsembleState squares(const std::vector<Vector<2>>& corners, double side) {
   state.cells = corners.size();
   state.nodes = 8;
   for (const auto& corner : corners) {
-    for (const auto& [a, b] : {std::pair{0.0, 0.0}, {0.5, 0.0}, {1.0, 0.0}, {1.0, 0.5}, {1.0, 1.0},
-                               {0.5, 1.0}, {0.0, 1.0}, {0.0, 0.5}}) {
+    for (const auto& [a, b] : {std::pair{0.0, 0.0},
+                               {0.5, 0.0},
+                               {1.0, 0.0},
+                               {1.0, 0.5},
+                               {1.0, 1.0},
+                               {0.5, 1.0},
+                               {0.0, 1.0},
+                               {0.0, 0.5}}) {
       state.x.push_back(corner.x() + a * side);
       state.y.push_back(corner.y() + b * side);
     }
@@ -34,8 +40,9 @@ TEST(AreaBelow, cuts_a_triangle_exactly) {
 TEST(ProfileAverage, finds_fraction_velocity_and_free_layer_of_known_cells) {
   const double um = 1e-6;
   const Box box{.length = 8 * um, .height = 8 * um, .walls = true};
-  // Two squares of side 2 um: between y = 2 and 4, and, across the periodic boundary, between 4 and 6.
-  const EnsembleState state = squares({{1 * um, 2 * um}, {7 * um, 4 * um}}, 2 * um);
+  // Two squares of side 2 um: between y = 2 and 4, and, across the periodic boundary, between 4
+  // and 6.
+  const EnsembleState state = squares({{2.05 * um, 2 * um}, {7.05 * um, 4 * um}}, 2 * um);
   const CubicProfile flow({.height = 8 * um, .velocities = {1, 1, 1, 1, 1}});
   ProfileAverage average(box, 4);
   average.add(state, flow, std::vector<double>(16, 6.0), 2, 4 * um);
@@ -56,7 +63,8 @@ TEST(ProfileAverage, finds_fraction_velocity_and_free_layer_of_known_cells) {
 TEST(Interpenetration, counts_nodes_inside_other_cells_and_images) {
   const Box box{.length = 10, .height = 10, .walls = false};
   EXPECT_EQ(count_interpenetrating_nodes(squares({{1, 1}, {5, 5}}, 2), box), 0U);
-  // The corner (2, 2) of the second lies in the first, and the corner (3, 3) of the first in the second.
+  // The corner (2, 2) of the second lies in the first, and the corner (3, 3) of the first in the
+  // second.
   EXPECT_EQ(count_interpenetrating_nodes(squares({{1, 1}, {2.2, 2.2}}, 2), box), 2U);
   // Across the corner of the box, the row above being displaced by 6.
   EnsembleState state = squares({{9, 9}, {4.2, 0.2}}, 2);

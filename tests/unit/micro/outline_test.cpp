@@ -25,8 +25,8 @@ TEST(Outline, nodes_lie_on_the_curve_equally_spaced) {
   const RingMesh mesh = make_ring_mesh(nodes, NaturalShape::outline);
   for (const auto& node : nodes) {
     const double s = std::pow(node.x() / radius, 2);
-    const double z =
-        0.5 * radius * std::sqrt(std::max(0.0, 1 - s)) * (0.207161 + 2.002558 * s - 1.122762 * s * s);
+    const double z = 0.5 * radius * std::sqrt(std::max(0.0, 1 - s)) *
+                     (0.207161 + 2.002558 * s - 1.122762 * s * s);
     EXPECT_NEAR(std::abs(node.y()), z, 1e-7 * radius);
   }
   // Chords are shorter than arcs by (curvature * spacing)^2 / 24.
@@ -51,7 +51,8 @@ TEST(Outline, refuses_what_is_no_outline) {
   EXPECT_THROW(outline_nodes({}, 7), ParameterError);
   EXPECT_NO_THROW(outline_nodes({}, 8));
   EXPECT_THROW(outline_nodes({.length = 0}, 8), ParameterError);
-  EXPECT_THROW(outline_nodes({.length = std::numeric_limits<double>::quiet_NaN()}, 8), ParameterError);
+  EXPECT_THROW(outline_nodes({.length = std::numeric_limits<double>::quiet_NaN()}, 8),
+               ParameterError);
   EXPECT_THROW(outline_nodes({.outline = Outline::ellipse, .aspect = 1.5}, 8), ParameterError);
   EXPECT_THROW(outline_nodes({.outline = Outline::ellipse, .aspect = 0}, 8), ParameterError);
 }

@@ -12,13 +12,17 @@ constexpr double r0 = 0.5e-6;
 constexpr double rc = 0.8e-6;
 const PairPotential potential = make_pair_potential(10, r0, rc, 0.05);
 
-double force(double r) { return potential.force_over_distance(r * r) * r; }
-double energy(double r) { return potential.energy(r * r); }
+double force(double r) {
+  return potential.force_over_distance(r * r) * r;
+}
+double energy(double r) {
+  return potential.energy(r * r);
+}
 
 TEST(PairPotential, force_is_minus_gradient_of_energy) {
   const double scale = force(0.25e-6);
   const double h = 1e-5 * r0;
-  for (double r = 0.01e-6; r < 0.85e-6; r += 0.007e-6) {
+  for (double r = 0.0113e-6; r < 0.85e-6; r += 0.007e-6) {  // misses the kink at r0
     EXPECT_NEAR(force(r), -(energy(r + h) - energy(r - h)) / (2 * h), 1e-8 * scale) << r;
   }
 }
@@ -26,7 +30,8 @@ TEST(PairPotential, force_is_minus_gradient_of_energy) {
 TEST(PairPotential, curvature_is_minus_slope_of_force) {
   const double h = 1e-6 * r0;
   for (double r = 0.013e-6; r < 0.85e-6; r += 0.007e-6) {
-    EXPECT_NEAR(potential.curvature(r * r), -(force(r + h) - force(r - h)) / (2 * h), 1e-5 * 10) << r;
+    EXPECT_NEAR(potential.curvature(r * r), -(force(r + h) - force(r - h)) / (2 * h), 1e-5 * 10)
+        << r;
   }
 }
 

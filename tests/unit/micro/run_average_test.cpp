@@ -11,7 +11,9 @@
 namespace hemoscale::micro {
 namespace {
 
-constexpr Run run{.warm_up_strain = 0, .minimum_strain = 5, .maximum_strain = 50,
+constexpr Run run{.warm_up_strain = 0,
+                  .minimum_strain = 5,
+                  .maximum_strain = 50,
                   .relative_standard_error = 0.01};
 
 Tensor<2> shear(double value) {

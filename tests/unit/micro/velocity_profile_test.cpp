@@ -19,8 +19,12 @@ VelocityProfile sampled(int points, double height, double (*f)(double)) {
   return table;
 }
 
-double parabola(double y) { return 3 * y * (2 - y); }
-double cubic(double y) { return 1 + y * (2 + y * (-3 + 0.5 * y)); }
+double parabola(double y) {
+  return 3 * y * (2 - y);
+}
+double cubic(double y) {
+  return 1 + y * (2 + y * (-3 + 0.5 * y));
+}
 
 TEST(CubicProfile, is_exact_for_parabolas_and_cubics_also_beyond_the_walls) {
   for (const int points : {4, 5, 21}) {

@@ -31,7 +31,7 @@ CoupledFlow<2> across(macro::MacroModel<2>& model, int count) {
 }
 
 LoopOptions exact_options() {
-  LoopOptions options = testing::loop_options(testing::short_run());
+  LoopOptions options = testing::loop_options(testing::exact_run());
   options.bounds.shear_thinning = false;
   options.memory = Memory::latest;
   options.tolerance = 1e-6;
@@ -78,7 +78,7 @@ int passes_to_converge(const Relaxation& relaxation) {
   Implicit<2> scheme(200);
   const WindowReport<2> window = scheme.advance(flow, loop, {}, {});
   EXPECT_TRUE(window.converged);
-  EXPECT_NEAR(loop.law().viscosity(1, hematocrit), truth.viscosity(100, hematocrit), 1e-8);
+  EXPECT_NEAR(loop.law().viscosity(1, hematocrit) / truth.viscosity(100, hematocrit), 1, 5e-6);
   return static_cast<int>(window.passes.size());
 }
 
@@ -97,7 +97,7 @@ TEST(Feedback, aitken_converges_in_few_passes_where_the_plain_iteration_needs_ma
 TEST(Feedback, flow_under_the_recovered_law_is_that_under_the_true_law) {
   const micro::Communicator alone;
   for (const Memory memory : {Memory::accumulate, Memory::latest}) {
-    LoopOptions options = testing::loop_options(testing::short_run());
+    LoopOptions options = testing::loop_options(testing::exact_run());
     options.memory = memory;
     options.tolerance = 1e-3;
     auto model = channel(1.0);
@@ -107,7 +107,9 @@ TEST(Feedback, flow_under_the_recovered_law_is_that_under_the_true_law) {
     Implicit<2> scheme(20);
     const WindowReport<2> window = scheme.advance(flow, loop, {}, {});
     EXPECT_TRUE(window.converged);
-    EXPECT_LE(window.passes.size(), 6u);
+    EXPECT_LE(window.passes.size(), 8u);
+    RecordProperty(memory == Memory::latest ? "passes_latest" : "passes_accumulate",
+                   static_cast<int>(window.passes.size()));
     const auto truth = model.solve(testing::blood());
     const double scale = truth->velocity(height / 2);
     for (double y = 0; y < height; y += height / 50) {
@@ -180,7 +182,7 @@ TEST(Feedback, one_way_measures_and_leaves_the_law) {
   const micro::Communicator alone;
   auto model = channel(1.0);
   CoupledFlow<2> flow = across(model, 4);
-  CoupledLoop loop(testing::newtonian(3.5e-3), testing::loop_options(testing::short_run()),
+  CoupledLoop loop(testing::newtonian(3.5e-3), testing::loop_options(testing::exact_run()),
                    testing::synthetic(testing::blood(), 0, 1), alone);
   const WindowReport<2> window = OneWay<2>().advance(flow, loop, {}, {});
   ASSERT_EQ(window.passes.size(), 1u);

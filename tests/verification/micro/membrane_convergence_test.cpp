@@ -28,8 +28,12 @@ double around(const std::function<double(double)>& f) {
   return sum * 2 * std::numbers::pi / n;
 }
 
-double speed(double t) { return std::hypot(a * std::sin(t), b * std::cos(t)); }
-double curvature(double t) { return a * b / std::pow(speed(t), 3); }
+double speed(double t) {
+  return std::hypot(a * std::sin(t), b * std::cos(t));
+}
+double curvature(double t) {
+  return a * b / std::pow(speed(t), 3);
+}
 
 test::Polygon ellipse(int nodes) {
   return outline_nodes({.outline = Outline::ellipse, .length = 2 * a, .aspect = b / a}, nodes);
@@ -58,8 +62,7 @@ TEST(MembraneConvergence, both_bending_laws_converge_with_second_order) {
 
 TEST(MembraneConvergence, stretching_converges_with_second_order) {
   // A circle of radius a squeezed to the ellipse: strain = speed(t) / a - 1.
-  const double exact =
-      0.5 * around([](double t) { return std::pow(speed(t) / a - 1, 2) * a; });
+  const double exact = 0.5 * around([](double t) { return std::pow(speed(t) / a - 1, 2) * a; });
   const auto energy = [](int nodes) {
     const test::Polygon circle = test::regular_polygon(nodes, a);
     test::Polygon squeezed = circle;

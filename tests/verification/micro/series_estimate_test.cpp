@@ -11,10 +11,10 @@ namespace hemoscale::micro {
 namespace {
 
 struct Replicas {
-  double reported = 0;   // mean standard error
-  double covered = 0;    // share of one-sigma bars that hold the true mean
-  double tau = 0;        // mean correlation time over the true one
-  double blocks = 0;     // mean of the block estimate
+  double reported = 0;  // mean standard error
+  double covered = 0;   // share of one-sigma bars that hold the true mean
+  double tau = 0;       // mean correlation time over the true one
+  double blocks = 0;    // mean of the block estimate
 };
 
 /// First-order autoregressions with correlation exp(-1/decay), mean 2, unit variance.
@@ -43,8 +43,9 @@ Replicas run_replicas(double decay, std::size_t length, std::uint64_t count) {
 /// Exact standard error of the mean of n samples of such a series.
 double exact_error(double decay, double n) {
   const double memory = std::exp(-1 / decay);
-  return std::sqrt(
-      ((1 + memory) / (1 - memory) - 2 * memory * (1 - std::pow(memory, n)) / (n * (1 - memory) * (1 - memory))) / n);
+  return std::sqrt(((1 + memory) / (1 - memory) -
+                    2 * memory * (1 - std::pow(memory, n)) / (n * (1 - memory) * (1 - memory))) /
+                   n);
 }
 
 TEST(SeriesEstimate, standard_error_of_autoregressions_is_right_within_ten_percent) {

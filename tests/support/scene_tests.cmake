@@ -1,0 +1,19 @@
+hemoscale_test(NAME scene_unit LABEL unit
+  SOURCES unit/scene/child_process_test.cpp unit/scene/results_folder_test.cpp
+  LIBRARIES hemoscale_scene)
+
+# Tests of the program as a user runs it.
+function(hemoscale_program_test label name file timeout)
+  add_test(NAME ${label}.${name} COMMAND ${HEMOSCALE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  set(has_plugin 0)
+  if(HEMOSCALE_OPENFOAM_BUILT)
+    set(has_plugin 1)
+  endif()
+  set_tests_properties(${label}.${name} PROPERTIES LABELS ${label} TIMEOUT ${timeout} ENVIRONMENT
+    "HEMOSCALE=$<TARGET_FILE:hemoscale>;HEMOSCALE_HAS_PLUGIN=${has_plugin};PYTHONDONTWRITEBYTECODE=1")
+endfunction()
+hemoscale_program_test(property bad_input property/scene/bad_input.py 200)
+hemoscale_program_test(restart kill_and_restart restart/scene/kill_and_restart.py 200)
+hemoscale_program_test(mpi ranks mpi/scene/ranks.py 200)
+hemoscale_program_test(verification channel_feedback verification/scene/channel_feedback.py 300)
+set_tests_properties(mpi.ranks PROPERTIES RUN_SERIAL ON)
