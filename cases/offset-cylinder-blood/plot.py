@@ -19,6 +19,7 @@ import numpy as np
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.colors import LogNorm  # noqa: E402
+from matplotlib.ticker import ScalarFormatter  # noqa: E402
 from matplotlib.tri import Triangulation  # noqa: E402
 
 LENGTH = 0.25e-3  # [m] of 1 in the tutorial, as in case.toml
@@ -108,7 +109,7 @@ def main(results):
     triangles = mesh_of(ours["x"])
     shown = Triangulation(millimetres[:, 0], millimetres[:, 1], triangles.triangles, triangles.mask)
     low, high = mu.min() * 1e3, mu.max() * 1e3
-    scale = LogNorm(low, high) if high > 1.01 * low else None
+    scale = LogNorm(low, high) if high > 3 * low else None  # else linear colours
     image = field.tripcolor(shown, mu * 1e3, norm=scale, cmap="viridis", shading="gouraud")
     field.add_patch(plt.Circle((0, 0), LENGTH * 1e3, color="0.75"))
     field.set_aspect("equal")
@@ -124,7 +125,9 @@ def main(results):
         fmt="o", color="#D55E00", markersize=4, label="micro runs (two standard errors)",
     )
     curve.set(xlabel="shear rate [1/s]", ylabel="viscosity [mPa s]", title="law")
-    curve.legend(fontsize=8)
+    curve.legend(fontsize=8, loc="upper right")
+    curve.yaxis.set_major_formatter(ScalarFormatter())
+    curve.yaxis.set_minor_formatter(ScalarFormatter())
     figure.savefig(results / "offset-cylinder-blood.png", dpi=130)
     print(f"picture: {results / 'offset-cylinder-blood.png'}")
     if deviation > 0.02:

@@ -82,7 +82,9 @@ class Collector {
     std::set<std::string> seen;
     for (const auto& [name, child] : tree.children) {
       const bool is_variants = section.empty() && layer_prefix.empty() && name == variant_section;
-      const std::string key = section.empty() ? name : section + "." + name;
+      std::string key = section;
+      key += section.empty() ? "" : ".";
+      key += name;
       const std::string written = layer_prefix + printable(key);
       const bool plain = !name.empty() && name.find('.') == std::string::npos;
       const auto parameter = plain ? parameters_.find(key) : parameters_.end();

@@ -101,7 +101,7 @@ std::string shown(const Tree& node) {
 
 std::optional<Settings::Value> ValueReader::read(const Parameter& parameter, const std::string& key,
                                                  const Tree& node) {
-  const auto as_value = [](auto&& result) -> std::optional<Settings::Value> {
+  const auto as_value = [](auto result) -> std::optional<Settings::Value> {
     if (!result) return std::nullopt;
     return std::optional<Settings::Value>(std::in_place, *std::move(result));
   };

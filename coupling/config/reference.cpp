@@ -48,7 +48,7 @@ std::string kind_text(const Parameter& parameter) {
 
 std::string default_text(const Parameter& parameter) {
   if (parameter.default_value) {
-    const std::string value = parameter.default_value->empty() ? "\"\"" : *parameter.default_value;
+    std::string value = parameter.default_value->empty() ? "\"\"" : *parameter.default_value;
     if (parameter.default_when.empty()) return value;
     return value + " when " + conditions_text(parameter.default_when) + ", otherwise required";
   }

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "ITstream.H"
+#include "OSspecific.H"
 #include "OStringStream.H"
 
 namespace hemoscale::coupling {
@@ -11,16 +12,20 @@ namespace {
 using Kind = ParameterTree::Kind;
 using Tokens = Foam::tokenList;
 
-int line_or_unknown(Foam::label line) { return line > 0 ? static_cast<int>(line) : 0; }
+int line_or_unknown(Foam::label line) {
+  return line > 0 ? static_cast<int>(line) : 0;
+}
 
-/// The file an entry was read from. Streams are named after file and key, "system/controlDict.key",
-/// from v2006 on "system/controlDict/key".
+/// The file an entry was read from. Its stream is named after the file and the dictionaries around
+/// it, "/case/system/controlDict.functions.hemoscale.key", from v2006 on with slashes: what is left
+/// after taking parts off the end, until it is a file.
 std::string file_of(const Foam::entry& entry) {
-  std::string name = entry.stream().name();
-  const std::string key = entry.keyword();
-  if (name.size() > key.size() + 1 &&
-      name.compare(name.size() - key.size(), key.size(), key) == 0) {
-    name.resize(name.size() - key.size() - 1);
+  const std::string whole = entry.stream().name();
+  std::string name = whole;
+  while (!Foam::isFile(Foam::fileName(name), false)) {
+    const std::size_t separator = name.find_last_of("./");
+    if (separator == std::string::npos || separator == 0) return whole;
+    name.resize(separator);
   }
   return name;
 }

@@ -59,7 +59,9 @@ singlePhaseTransportModel* transport_of(const fvMesh& mesh) {
   return mesh.getObjectPtr<singlePhaseTransportModel>("transportProperties");
 }
 
-bool differ(double a, double b) { return mag(a - b) > 1e-9 * max(mag(a), mag(b)); }
+bool differ(double a, double b) {
+  return mag(a - b) > 1e-9 * max(mag(a), mag(b));
+}
 
 }  // namespace
 
@@ -102,9 +104,9 @@ void hemoscaleCoupling::begin(const dictionary& dict) {
                                                             given_.restart, ranks());
   check_points_inside();
   deliver_law();
-  Info << "hemoscale: " << scheme.c_str() << " coupling every " << steps_in_window_
-       << " steps, " << label(session_->points().size()) << " sample points, results in "
-       << given_.results << nl << endl;
+  Info << "hemoscale: " << scheme.c_str() << " coupling every " << steps_in_window_ << " steps, "
+       << label(session_->points().size()) << " sample points, results in " << given_.results << nl
+       << endl;
 }
 
 void hemoscaleCoupling::check_viscosity_model() {
@@ -113,8 +115,9 @@ void hemoscaleCoupling::check_viscosity_model() {
   const singlePhaseTransportModel* transport = transport_of(mesh_);
   if (transport == nullptr) {
     throw hs::macro::EnvironmentError(
-        "no feedback possible: solver " + time_.controlDict().lookupOrDefault<word>("application",
-        "of this case") + " has no transport model that it asks for the viscosity (icoFoam reads a "
+        "no feedback possible: solver " +
+        time_.controlDict().lookupOrDefault<word>("application", "of this case") +
+        " has no transport model that it asks for the viscosity (icoFoam reads a "
         "constant nu once); use simpleFoam, pisoFoam, pimpleFoam or nonNewtonianIcoFoam, or set "
         "coupling.scheme to one-way");
   }
@@ -169,8 +172,8 @@ void hemoscaleCoupling::check_points_inside() const {
   const vector high = box.max() * length;
   std::ostringstream message;
   message << "sampling.points: outside the mesh: " << outside.str() << " m; the mesh lies within ("
-          << low.x() << " " << low.y() << " " << low.z() << ") and (" << high.x() << " "
-          << high.y() << " " << high.z() << ") m with macro.openfoam.length_unit " << length
+          << low.x() << " " << low.y() << " " << low.z() << ") and (" << high.x() << " " << high.y()
+          << " " << high.z() << ") m with macro.openfoam.length_unit " << length
           << " m; correct the points or that unit";
   throw hs::macro::ParameterError(message.str());
 }
@@ -193,8 +196,9 @@ void hemoscaleCoupling::deliver_law() {
 bool hemoscaleCoupling::read(const dictionary& dict) {
   fvMeshFunctionObject::read(dict);
   if (session_) {
-    WarningInFunction << "hemoscale: its dictionary changed while the solver runs; the change takes "
-                      << "effect when the solver is started again" << endl;
+    WarningInFunction
+        << "hemoscale: its dictionary changed while the solver runs; the change takes "
+        << "effect when the solver is started again" << endl;
   }
   return true;
 }
@@ -233,7 +237,8 @@ void hemoscaleCoupling::check_speed() {
   const double unit = units_of(given_.settings).speed();
   std::ostringstream message;
   message << "the solver diverged: the highest speed is " << highest * unit << " m/s, it was "
-          << usual_speed_ * unit << " m/s; reduce the time step (PISO: nu dt / dy^2 below 3), raise "
+          << usual_speed_ * unit
+          << " m/s; reduce the time step (PISO: nu dt / dy^2 below 3), raise "
           << "nCorrectors, or reduce the relaxation factors";
   throw hs::macro::NumericalError(message.str());
 }
@@ -244,8 +249,8 @@ void hemoscaleCoupling::advance_window() {
   check_feedback();
   check_speed();
   if (mesh_.changing()) locator_ = std::make_shared<hs::macro::PointLocator>(mesh_);
-  const hs::coupling::PassReport pass = session_->advance(
-      flow(), {window_begin_ * time_unit, time_.value() * time_unit});
+  const hs::coupling::PassReport pass =
+      session_->advance(flow(), {window_begin_ * time_unit, time_.value() * time_unit});
   window_begin_ = time_.value();
   ++windows_;
   if (!is_one_way_) deliver_law();
@@ -253,13 +258,9 @@ void hemoscaleCoupling::advance_window() {
   const bool was_last = pass.pass >= given_.settings.integer("coupling.maximum_passes");
   is_settled_ = is_steady_ && (pass.converged || was_last);
   coupling_time_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::ostringstream line;
-  line << "hemoscale: pass " << pass.pass << "  change " << pass.change << "  relaxation "
-       << pass.relaxation << "  micro runs " << pass.micro_runs << "  viscosity "
-       << pass.lowest_viscosity << " to " << pass.highest_viscosity << " Pa s"
-       << (pass.converged ? "  converged" : "");
-  if (is_settled_ && !pass.converged) line << "  last pass allowed, not converged";
-  Info << line.str().c_str() << nl << endl;
+  if (!is_settled_) return;
+  Info << "hemoscale: " << (pass.converged ? "converged" : "last pass allowed, not converged")
+       << ": the steady flow goes on under this law, no more windows" << nl << endl;
 }
 
 bool hemoscaleCoupling::execute() {

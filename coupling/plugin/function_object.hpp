@@ -48,7 +48,8 @@ class hemoscaleCoupling : public fvMeshFunctionObject {
   hemoscale::coupling::PluginSettings given_;
   std::unique_ptr<hemoscale::coupling::CoupledSession> session_;
   std::shared_ptr<const hemoscale::macro::PointLocator> locator_;
-  hemoscaleLawInUse* law_in_use_ = nullptr;  // null: one-way in a solver with a viscosity of its own
+  hemoscaleLawInUse* law_in_use_ =
+      nullptr;  // null: one-way in a solver with a viscosity of its own
   word velocity_name_;
   label first_step_ = 0;       // time index at which the run began
   label steps_in_window_ = 0;  // [-] steps of the solver per window
@@ -58,9 +59,9 @@ class hemoscaleCoupling : public fvMeshFunctionObject {
   scalar usual_speed_ = 0;     // [mesh units] at the start, or in the first window
   bool is_one_way_ = false;
   bool is_steady_ = false;
-  bool is_settled_ = false;    // a steady loop that needs no more windows
+  bool is_settled_ = false;  // a steady loop that needs no more windows
   bool is_finished_ = false;
-  double coupling_time_ = 0;   // [s] wall time spent in the session
+  double coupling_time_ = 0;  // [s] wall time spent in the session
 };
 
 }  // namespace functionObjects

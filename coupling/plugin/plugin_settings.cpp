@@ -2,21 +2,33 @@
 
 #include <set>
 
+#include "Switch.H"
 #include "coupling/config/read_case.hpp"
 #include "coupling/error.hpp"
 #include "coupling/plugin/dictionary_tree.hpp"
-#include "Switch.H"
 
 namespace hemoscale::coupling {
 namespace {
 
 /// Entries that OpenFOAM, or this reader, takes from the dictionary of a function object.
 const std::set<std::string>& own_entries() {
-  static const std::set<std::string> names = {
-      "type",           "libs",          "functionObjectLibs", "region",       "enabled",
-      "log",            "errors",        "executeControl",     "writeControl", "executeInterval",
-      "writeInterval",  "timeStart",     "timeEnd",            "results",      "restart",
-      "variant",        "case"};
+  static const std::set<std::string> names = {"type",
+                                              "libs",
+                                              "functionObjectLibs",
+                                              "region",
+                                              "enabled",
+                                              "log",
+                                              "errors",
+                                              "executeControl",
+                                              "writeControl",
+                                              "executeInterval",
+                                              "writeInterval",
+                                              "timeStart",
+                                              "timeEnd",
+                                              "results",
+                                              "restart",
+                                              "variant",
+                                              "case"};
   return names;
 }
 
@@ -116,8 +128,9 @@ PluginSettings read_plugin_settings(const Foam::dictionary& dictionary,
   const std::string model = read.settings.text("macro.model");
   if (model != "openfoam") {
     throw fault(dictionary, "case",
-                "macro.model is " + model + " in the case; inside a solver of OpenFOAM it must be "
-                "openfoam: name a variant that sets it");
+                "macro.model is " + model +
+                    " in the case; inside a solver of OpenFOAM it must be "
+                    "openfoam: name a variant that sets it");
   }
   const std::string results = expanded(dictionary, "results");
   read.results = inside(openfoam_case, results.empty() ? "results" : results);

@@ -8,9 +8,9 @@ namespace hemoscale::coupling {
 
 /// What the dictionary of the function object says.
 struct PluginSettings {
-  Settings settings;        // the checked case
-  Foam::fileName results;   // folder for results, absolute
-  bool restart = false;     // continue from the newest checkpoint there
+  Settings settings;       // the checked case
+  Foam::fileName results;  // folder for results, absolute
+  bool restart = false;    // continue from the newest checkpoint there
 };
 
 /// Reads the dictionary of the function object `hemoscale`:

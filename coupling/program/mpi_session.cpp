@@ -66,6 +66,7 @@ Outcome MpiSession::end_together(const Outcome& own, double patience) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
+  MPI_Wait(&request, MPI_STATUS_IGNORE);  // complete: returns at once
 
   Outcome shared;
   int failed = 0;

@@ -26,7 +26,8 @@ namespace fs = std::filesystem;
 class FoamErrorsThrow {
  public:
   FoamErrorsThrow()
-      : error_(Foam::FatalError.throwExceptions()), io_error_(Foam::FatalIOError.throwExceptions()) {}
+      : error_(Foam::FatalError.throwExceptions()),
+        io_error_(Foam::FatalIOError.throwExceptions()) {}
   ~FoamErrorsThrow() {
     Foam::FatalError.throwExceptions(error_);
     Foam::FatalIOError.throwExceptions(io_error_);
@@ -126,16 +127,19 @@ void check_case(const fs::path& folder, bool decomposed) {
   const bool has_mesh = is_there(folder / "constant" / "polyMesh" / "faces");
   const bool is_decomposed = fs::is_directory(folder / "processor0", ignored);
   if (!decomposed && !has_mesh && is_decomposed) {
-    throw EnvironmentError(name + ": the case is decomposed and has no whole mesh; run "
+    throw EnvironmentError(name +
+                           ": the case is decomposed and has no whole mesh; run "
                            "reconstructParMesh and reconstructPar in it, or start as many ranks "
                            "as it has processor folders");
   }
   if (!decomposed && !has_mesh) {
-    throw EnvironmentError(name + ": the case has no mesh (constant/polyMesh); make one, for "
+    throw EnvironmentError(name +
+                           ": the case has no mesh (constant/polyMesh); make one, for "
                            "instance with blockMesh");
   }
   if (decomposed && !is_decomposed) {
-    throw EnvironmentError(name + ": the case is not decomposed (no folder processor0); run "
+    throw EnvironmentError(name +
+                           ": the case is not decomposed (no folder processor0); run "
                            "decomposePar in it, or start a single process");
   }
   if (!decomposed) return;
@@ -198,8 +202,8 @@ OpenedCase::OpenedCase(const fs::path& folder, const CaseReading& reading) {
     join_ranks(folder);
     part = part / ("processor" + Foam::name(Foam::Pstream::myProcNo()));
   }
-  time_ = std::make_unique<Foam::Time>(Foam::Time::controlDictName, path.path(), part, Foam::word("system"),
-                                       Foam::word("constant"), false);
+  time_ = std::make_unique<Foam::Time>(Foam::Time::controlDictName, path.path(), part,
+                                       Foam::word("system"), Foam::word("constant"), false);
   choose_time(name, reading.time);
   mesh_ = std::make_unique<Foam::fvMesh>(Foam::IOobject(
       Foam::polyMesh::defaultRegion, time_->timeName(), *time_, Foam::IOobject::MUST_READ));
@@ -237,7 +241,7 @@ std::unique_ptr<Field> OpenedCase::read_field(const std::string& folder,
                         Foam::IOobject::NO_WRITE);
   const bool has_header = header.typeHeaderOk<Field>(false);
   agree(has_header, folder + ": no field '" + name + "' at time " + time_->timeName() +
-                      "; name the field that the case has, or run its solver first");
+                        "; name the field that the case has, or run its solver first");
   const std::string type = header.headerClassName();
   agree(type == Field::typeName, folder + ": field '" + name + "' at time " + time_->timeName() +
                                      " is a " + type + ", not a " + Field::typeName);
@@ -264,11 +268,15 @@ hemoscale::macro::FlowField<3>* hemoscale_open_case(const std::filesystem::path*
   try {
     return new OpenedCase(tidy, *reading);
   } catch (const Foam::error& error) {  // IOerror derives from it
-    throw EnvironmentError(tidy.string() + ": OpenFOAM cannot read the case: " +
-                           std::string(error.message()));
+    throw EnvironmentError(tidy.string() +
+                           ": OpenFOAM cannot read the case: " + std::string(error.message()));
   }
 }
 
-int hemoscale_openfoam_compiled_version() { return OPENFOAM; }
+int hemoscale_openfoam_compiled_version() {
+  return OPENFOAM;
+}
 
-int hemoscale_openfoam_running_version() { return Foam::foamVersion::api; }
+int hemoscale_openfoam_running_version() {
+  return Foam::foamVersion::api;
+}

@@ -77,8 +77,8 @@ FoamFlowField::FoamFlowField(const Foam::volVectorField& velocity,
       const Foam::volVectorField row(
           unregistered("hemoscale:gradient", mesh),
           gradient_ & Foam::dimensionedVector("unit", Foam::dimless, unit));
-      second_.set(i, new Foam::volTensorField(unregistered("hemoscale:second", mesh),
-                                              gradient_of(row)));
+      second_.set(
+          i, new Foam::volTensorField(unregistered("hemoscale:second", mesh), gradient_of(row)));
     }
     if (pressure_) {
       pressure_gradient_ = std::make_unique<Foam::volVectorField>(

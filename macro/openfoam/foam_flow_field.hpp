@@ -21,8 +21,8 @@ namespace hemoscale::macro {
 ///
 ///   u(x) = u_c + L_c r + (r . grad L_c) r / 2,    L(x) = L_c + r . grad L_c
 ///
-/// Exact for quadratic flows in the interior of a mesh; in the cells next to a wall of cell height h
-/// the one-sided difference leaves an error of h u''/8 in L.
+/// Exact for quadratic flows in the interior of a mesh; in the cells next to a wall of cell height
+/// h the one-sided difference leaves an error of h u''/8 in L.
 ///
 /// Refers to the fields it was made from, which must not change while it is in use. Construction
 /// and every call are collective over the ranks of the mesh.

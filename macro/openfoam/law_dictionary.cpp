@@ -88,26 +88,30 @@ ViscosityLaw read_law(const Foam::dictionary& laws, double plasma_viscosity) {
   if (initial == "casson") {
     const Table t(laws, "casson");
     t.allow_only({"yield_stress", "viscosity", "lowest_shear_rate"});
-    return ViscosityLaw(Casson{t.not_negative("yield_stress", 5e-3), t.positive("viscosity", 3.5e-3),
-                  t.positive("lowest_shear_rate", 1e-3)});
+    return ViscosityLaw(Casson{t.not_negative("yield_stress", 5e-3),
+                               t.positive("viscosity", 3.5e-3),
+                               t.positive("lowest_shear_rate", 1e-3)});
   }
   if (initial == "cross") {
     const Table t(laws, "cross");
     t.allow_only({"zero_viscosity", "infinite_viscosity", "time", "power"});
-    return ViscosityLaw(Cross{t.positive("zero_viscosity", 0), t.not_negative("infinite_viscosity", 0),
-                 t.positive("time", 0), t.positive("power", 0)});
+    return ViscosityLaw(Cross{t.positive("zero_viscosity", 0),
+                              t.not_negative("infinite_viscosity", 0), t.positive("time", 0),
+                              t.positive("power", 0)});
   }
   if (initial == "power-law") {
     const Table t(laws, "power_law");
     t.allow_only({"consistency", "power", "lowest_shear_rate", "highest_shear_rate"});
     return ViscosityLaw(PowerLaw{t.positive("consistency", 0), t.positive("power", 0),
-                    t.positive("lowest_shear_rate", 0), t.positive("highest_shear_rate", 0)});
+                                 t.positive("lowest_shear_rate", 0),
+                                 t.positive("highest_shear_rate", 0)});
   }
   if (initial == "quemada") {
     const Table t(laws, "quemada");
     t.allow_only({"packing_low", "packing_high", "critical_shear_rate"});
     return ViscosityLaw(Quemada{plasma_viscosity, t.not_negative("packing_low", 4.33),
-                   t.not_negative("packing_high", 2.07), t.positive("critical_shear_rate", 1.88)});
+                                t.not_negative("packing_high", 2.07),
+                                t.positive("critical_shear_rate", 1.88)});
   }
   refuse(laws, "initial is '" + initial +
                    "'; it must be newtonian, carreau-yasuda, casson, cross, power-law or quemada");

@@ -92,8 +92,10 @@ template <class Function>
 Function symbol(void* library, const char* name, const fs::path& file) {
   void* address = ::dlsym(library, name);
   if (address == nullptr) {
-    throw EnvironmentError(file.string() + ": not the OpenFOAM library of this version of HemoScale "
-                           "(no function " + name + "); build and install it again");
+    throw EnvironmentError(file.string() +
+                           ": not the OpenFOAM library of this version of HemoScale "
+                           "(no function " +
+                           name + "); build and install it again");
   }
   return reinterpret_cast<Function>(address);
 }

@@ -39,8 +39,8 @@ void evaluate(const hemoscaleLawInUse& in_use, const scalarField& shear_rates, s
 
 }  // namespace
 
-hemoscaleViscosity::hemoscaleViscosity(const word& name, const dictionary& properties, const volVectorField& U,
-                     const surfaceScalarField& phi)
+hemoscaleViscosity::hemoscaleViscosity(const word& name, const dictionary& properties,
+                                       const volVectorField& U, const surfaceScalarField& phi)
     : viscosityModel(name, properties, U, phi),
       nu_(IOobject(name, U.time().timeName(), U.db(), IOobject::NO_READ, IOobject::AUTO_WRITE),
           U.mesh(), dimensionedScalar(name, dimViscosity, Zero)),

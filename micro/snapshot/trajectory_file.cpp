@@ -140,8 +140,9 @@ void copy_frames(const TrajectoryReader& stored, std::size_t count) {
   part.move_into_place();
 }
 
-/// Makes sure of `bytes` on the disk behind the end of the file: HDF5 does not survive a disk that
-/// becomes full while it writes its index, so this must be found before.
+/// Makes sure of `bytes` on the disk behind the end of the file. When the disk becomes full while
+/// HDF5 writes, it holds on to the file until the process ends, and nothing can be added after room
+/// was made; so this must be found before.
 void reserve_space(const std::filesystem::path& path, std::int64_t bytes) {
   const auto fail = [&](const char* action, int error) {
     throw EnvironmentError(path.string() + ": cannot " + action + ": " +

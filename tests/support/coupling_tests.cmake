@@ -1,6 +1,7 @@
 hemoscale_test(NAME coupling_unit LABEL unit LIBRARIES hemoscale_coupling
   SOURCES
     unit/coupling/coupled_loop_test.cpp
+    unit/coupling/coupling_scheme_test.cpp
     unit/coupling/micro_runs_test.cpp
     unit/coupling/monotone_regression_test.cpp
     unit/coupling/openfoam_dictionary_test.cpp

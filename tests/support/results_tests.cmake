@@ -18,7 +18,9 @@ hemoscale_test(NAME results_restart_test LABEL restart
   SOURCES restart/results/interrupted_writes.cpp
           restart/results/killed_checkpoint_test.cpp
           restart/results/killed_trajectory_test.cpp
-  LIBRARIES hemoscale_snapshot)
+  LIBRARIES hemoscale_snapshot MPI::MPI_C ${HDF5_C_LIBRARIES})
+target_include_directories(results_restart_test SYSTEM PRIVATE ${HDF5_C_INCLUDE_DIRS})
+target_compile_definitions(results_restart_test PRIVATE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
 # These tests replace the C library's writing functions by their own, and the libraries must find
 # those of the executable.
 set_target_properties(results_restart_test PROPERTIES ENABLE_EXPORTS ON)

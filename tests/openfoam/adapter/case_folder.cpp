@@ -83,10 +83,9 @@ void CaseFolder::replace(const std::string& file, const std::string& before,
 }
 
 Outcome CaseFolder::run(const std::string& command,
-                    const std::map<std::string, std::string>& more) const {
+                        const std::map<std::string, std::string>& more) const {
   std::map<std::string, std::string> environment = {
-      {"HEMOSCALE_OPENFOAM_LIBRARY", library_file().string()},
-      {"OMP_NUM_THREADS", "1"}};
+      {"HEMOSCALE_OPENFOAM_LIBRARY", library_file().string()}, {"OMP_NUM_THREADS", "1"}};
   if (std::getenv("WM_PROJECT_DIR") == nullptr) {
     environment["WM_PROJECT_DIR"] = "/usr/share/openfoam";
   }

@@ -33,7 +33,8 @@ class CaseFolder {
 
   /// A command line for the shell, in the folder, with OpenFOAM's environment and the library of
   /// this build; ended after 280 s.
-  Outcome run(const std::string& command, const std::map<std::string, std::string>& more = {}) const;
+  Outcome run(const std::string& command,
+              const std::map<std::string, std::string>& more = {}) const;
 
   /// "mpirun ... -np N"
   static std::string mpirun(int ranks);
@@ -60,9 +61,9 @@ std::string missing_openfoam();
 
 /// Skips the test if there is no OpenFOAM or the plug-in was not built; fails it instead if the
 /// environment variable REQUIRE_OPENFOAM is set.
-#define HEMOSCALE_NEEDS_OPENFOAM()                                                    \
+#define HEMOSCALE_NEEDS_OPENFOAM()                                                         \
   if (const std::string missing = hemoscale::test::missing_openfoam(); !missing.empty()) { \
-    if (std::getenv("REQUIRE_OPENFOAM") != nullptr) FAIL() << missing;                \
-    GTEST_SKIP() << missing;                                                          \
-  }                                                                                   \
+    if (std::getenv("REQUIRE_OPENFOAM") != nullptr) FAIL() << missing;                     \
+    GTEST_SKIP() << missing;                                                               \
+  }                                                                                        \
   static_assert(true, "")

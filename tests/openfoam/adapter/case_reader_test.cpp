@@ -12,9 +12,9 @@
 namespace hemoscale::macro {
 namespace {
 
+using test::CaseFolder;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using test::CaseFolder;
 
 std::string failure_of(const std::function<void()>& code) {
   try {
@@ -90,8 +90,9 @@ TEST(CaseReader, says_what_is_wrong_with_a_folder) {
 
   std::filesystem::remove(folder.path() / "0" / "U");
   EXPECT_THAT(failure(folder.path()), HasSubstr("no field 'U' at time 0"));
-  folder.write("0/U", "FoamFile { version 2.0; format ascii; class volVectorField; object U; }\n"
-                      "dimensions [0 1 -1 0 0 0 0]; internalField uniform (1 0");
+  folder.write("0/U",
+               "FoamFile { version 2.0; format ascii; class volVectorField; object U; }\n"
+               "dimensions [0 1 -1 0 0 0 0]; internalField uniform (1 0");
   EXPECT_THAT(failure(folder.path()), HasSubstr("OpenFOAM cannot read the case"));
 
   std::filesystem::remove_all(folder.path() / "0");
@@ -121,12 +122,12 @@ TEST(CaseReader, ranks_of_a_decomposed_case_agree_with_the_whole_one) {
   ASSERT_EQ(folder.run("blockMesh").status, 0);
   const test::Outcome run = folder.run("simpleFoam && decomposePar -latestTime");
   ASSERT_EQ(run.status, 0) << run.output;
-  const test::Outcome sampled = folder.run(CaseFolder::mpirun(2) + " " HEMOSCALE_SAMPLER " " +
-                                       folder.path().string());
+  const test::Outcome sampled =
+      folder.run(CaseFolder::mpirun(2) + " " HEMOSCALE_SAMPLER " " + folder.path().string());
   EXPECT_EQ(sampled.status, 0) << sampled.output;
   EXPECT_THAT(sampled.output, HasSubstr("agree"));
-  const test::Outcome wrong = folder.run(CaseFolder::mpirun(3) + " " HEMOSCALE_SAMPLER " " +
-                                     folder.path().string());
+  const test::Outcome wrong =
+      folder.run(CaseFolder::mpirun(3) + " " HEMOSCALE_SAMPLER " " + folder.path().string());
   EXPECT_NE(wrong.status, 0);
   EXPECT_THAT(wrong.output, HasSubstr("not decomposed for 3 ranks"));
 }

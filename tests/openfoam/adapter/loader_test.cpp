@@ -45,9 +45,8 @@ TEST(Loader, says_that_a_file_cannot_be_loaded) {
   HEMOSCALE_NEEDS_OPENFOAM();
   test::CaseFolder folder;
   folder.write("libhemoscale_openfoam.so", "not a library");
-  EXPECT_THAT(
-      failure_of([&] { OpenFoamLibrary(folder.path() / "libhemoscale_openfoam.so"); }),
-      AllOf(HasSubstr("cannot be loaded"), HasSubstr("is OpenFOAM installed")));
+  EXPECT_THAT(failure_of([&] { OpenFoamLibrary(folder.path() / "libhemoscale_openfoam.so"); }),
+              AllOf(HasSubstr("cannot be loaded"), HasSubstr("is OpenFOAM installed")));
 }
 
 TEST(Loader, says_that_a_library_is_another_one) {

@@ -17,7 +17,7 @@ namespace {
 using test::CaseFolder;
 using test::Scale;
 
-constexpr double height = 1e-4;                 // [m] of the template case
+constexpr double height = 1e-4;                    // [m] of the template case
 constexpr double mean_velocity = 3.3333333333e-3;  // [m/s]
 
 MeshUnits units_of(Scale scale) {
@@ -190,8 +190,9 @@ TEST(Sampling, quadratic_flow_is_exact_in_the_interior) {
 TEST(Sampling, points_outside_have_no_flow_and_points_on_the_boundary_have_one) {
   HEMOSCALE_NEEDS_OPENFOAM();
   CaseFolder folder;
-  make_cube(folder, 7, [](const Vector<3>& x) -> Vector<3> { return x; },
-            [](const Vector<3>&) { return 0.0; });
+  make_cube(
+      folder, 7, [](const Vector<3>& x) -> Vector<3> { return x; },
+      [](const Vector<3>&) { return 0.0; });
   CaseReading reading;
   reading.units.length = 1e-5;  // 7e-5 / 1e-5 is not 7 after rounding
   const auto flow = OpenFoamLibrary().open_case(folder.path(), reading);

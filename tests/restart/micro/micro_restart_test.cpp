@@ -37,6 +37,21 @@ TEST(EnsembleRestart, continues_with_the_same_bits) {
   expect_same_bits(saved, whole.snapshot());
 }
 
+// A model that is restored after every step builds its list anew each time; one that runs on keeps
+// it for hundreds of steps. A pair missed by the older list would show.
+TEST(EnsembleRestart, the_age_of_the_neighbour_list_does_not_change_a_bit) {
+  EnsembleParameters p = test::small_ensemble();
+  p.hematocrit = 0.45;
+  EnsembleModel old_list(p, 1);
+  EnsembleModel new_list(p, 1);
+  for (int i = 0; i < 3000; ++i) {
+    new_list.restore(new_list.snapshot());
+    new_list.advance_by(shear(50, 0.45), new_list.time_step());
+  }
+  old_list.advance_by(shear(50, 0.45), 3000 * old_list.time_step());
+  expect_same_bits(old_list.snapshot(), new_list.snapshot());
+}
+
 TEST(EnsembleRestart, channel_continues_with_the_same_bits) {
   EnsembleParameters p = test::small_ensemble();
   p.domain = PlaneChannel{.height = 15e-6};

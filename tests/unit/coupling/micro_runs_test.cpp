@@ -59,6 +59,19 @@ TEST(MicroRuns, a_model_continues_from_its_last_state) {
   EXPECT_EQ(second[0].observation.shear_stress.mean, direct.shear_stress.mean);
 }
 
+TEST(MicroRuns, a_model_is_made_once) {
+  const micro::Communicator alone;
+  std::vector<int> made;
+  MicroRuns runs(
+      [&, inside = testing::synthetic(testing::blood(), 0.05, 3)](int slot) {
+        made.push_back(slot);
+        return inside(slot);
+      },
+      alone, 1);
+  for (int pass = 0; pass < 3; ++pass) runs.advance(plan(2), testing::short_run(), {});
+  EXPECT_THAT(made, ::testing::UnorderedElementsAre(0, 1));
+}
+
 TEST(MicroRuns, restored_models_are_made_anew_with_the_same_bits) {
   const micro::Communicator alone;
   const MicroFactory factory = testing::synthetic(testing::blood(), 0.05, 3);

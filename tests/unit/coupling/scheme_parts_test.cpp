@@ -206,6 +206,15 @@ TEST(ByteStream, keeps_every_bit) {
   again.observation(received);
   again.snapshot(copy);
   EXPECT_EQ(again.bytes(), writer.bytes());
+  EXPECT_EQ(received.shear_rate, sent.shear_rate);
+  EXPECT_TRUE(std::signbit(received.hematocrit));
+  EXPECT_EQ(received.shear_stress.correlation_time, sent.shear_stress.correlation_time);
+  EXPECT_EQ(received.first_normal_difference.effective_samples,
+            sent.first_normal_difference.effective_samples);
+  EXPECT_EQ(received.averaging_time, 8);
+  EXPECT_EQ(received.warm_up_time, 9);
+  EXPECT_EQ(received.termination, micro::Termination::precision_reached);
+  EXPECT_EQ(received.ledger.at(0).stop_above, 1e-3);
   EXPECT_EQ(received.steps, sent.steps);
   EXPECT_EQ(received.ledger.at(0).name, "area of the worst cell");
   EXPECT_EQ(received.particle_stress, sent.particle_stress);

@@ -100,9 +100,14 @@ TEST(Bessel, difference_keeps_its_relative_accuracy_for_small_arguments_and_at_t
   // Leading term (z^2 / 4) (1 - xi^2).
   const std::complex<double> small = bessel_difference(1e-6, 0.5);
   EXPECT_NEAR(small.imag() / (0.25e-12 * 0.75), 1, 1e-11);
-  const double gap = 1e-12;
-  const std::complex<double> derivative(0, 0.5 * 4 * gap);  // x = 2: leading order of both
-  EXPECT_LT(std::abs(bessel_difference(2, 1 - gap) - derivative), std::abs(derivative));
+  // Next to the wall it is the derivative, I_0' = I_1, times the distance.
+  const double xi = 1 - 1e-10;
+  for (const double x : {0.1, 2.0, 15.0}) {
+    const double part = x * std::sqrt(0.5);
+    const std::complex<double> z(part, part);
+    const std::complex<double> tangent = std::exp(z) * scaled_bessel(x).I1 * z * (1 - xi);
+    EXPECT_LT(std::abs(bessel_difference(x, xi) - tangent), 1e-8 * std::abs(tangent)) << x;
+  }
   EXPECT_EQ(std::abs(bessel_difference(2, 1)), 0);
 }
 

@@ -92,6 +92,10 @@ TEST(ViscosityTable, knows_where_nothing_is_held) {
   EXPECT_FALSE(table.in_range(4.9, 0.3));  // held in the upper row
   EXPECT_FALSE(table.in_range(10.1, 0.3));
   EXPECT_TRUE(table.in_range(50, 0.4));
+  // On a row in the middle the rows beside it take no part.
+  const ViscosityTable three({{0.2, {1}, {1}}, {0.3, {5, 50}, {2, 1}}, {0.4, {1}, {1}}});
+  EXPECT_TRUE(three.in_range(20, 0.3));
+  EXPECT_FALSE(three.in_range(20, 0.299));
   EXPECT_FALSE(table.in_range(7, 0.19));
   EXPECT_FALSE(table.in_range(7, 0.41));
   EXPECT_FALSE(table.in_range(std::numeric_limits<double>::quiet_NaN(), 0.3));

@@ -113,6 +113,21 @@ TEST(Womersley, pipe_satisfies_the_textbook_formula) {
   }
 }
 
+TEST(Womersley, velocity_next_to_the_wall_keeps_its_relative_accuracy) {
+  for (const double alpha : {1e-3, 1.0, 15.0, 300.0}) {
+    for (const double t : {0.0, 1.3 / (alpha * alpha)}) {
+      const double y = 1e-10;
+      const double gradient = channel(alpha).at({0, 0}, t)->velocity_gradient(0, 1);
+      EXPECT_NEAR(channel(alpha).at({0, y}, t)->velocity[0] / (y * gradient), 1, 1e-7) << alpha;
+    }
+  }
+  for (const double alpha : {1e-3, 1.0, 15.0}) {
+    const double r = 1 - 1e-10;
+    const double gradient = pipe(alpha).at({0, 1, 0}, 0)->velocity_gradient(0, 1);
+    EXPECT_NEAR(pipe(alpha).at({0, r, 0}, 0)->velocity[0] / ((r - 1) * gradient), 1, 1e-7) << alpha;
+  }
+}
+
 TEST(Womersley, steady_part_adds_up) {
   const WomersleyChannel<2> both(WomersleyChannelProfile{2, 5, 3, 7, 1, 1});
   const WomersleyChannel<2> oscillating(WomersleyChannelProfile{2, 0, 3, 7, 1, 1});
