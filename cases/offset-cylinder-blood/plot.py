@@ -125,7 +125,7 @@ def main(results):
         fmt="o", color="#D55E00", markersize=4, label="micro runs (two standard errors)",
     )
     curve.set(xlabel="shear rate [1/s]", ylabel="viscosity [mPa s]", title="law")
-    curve.legend(fontsize=8, loc="upper right")
+    curve.legend(fontsize=8, loc="center right")
     curve.yaxis.set_major_formatter(ScalarFormatter())
     curve.yaxis.set_minor_formatter(ScalarFormatter())
     figure.savefig(results / "offset-cylinder-blood.png", dpi=130)

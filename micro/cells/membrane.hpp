@@ -21,7 +21,7 @@ struct MembraneParameters {
   double bending_modulus = 2e-19;  // [J] energy (kappa/2) int curvature^2 ds
   BendingLaw bending_law = BendingLaw::turning_angle;
   NaturalShape natural_shape = NaturalShape::outline;
-  double area_modulus = 5;  // [Pa] energy (k_A/2) (A - A0)^2 / A0
+  double area_modulus = 50;  // [Pa] energy (k_A/2) (A - A0)^2 / A0
 };
 
 }  // namespace hemoscale::micro

@@ -37,17 +37,18 @@ class MarchingFlow final : public macro::MacroModel<2> {
 
 class Scheme : public ::testing::Test {
  protected:
-  Scheme() {
-    options_.memory = Memory::latest;
-    options_.relaxation = ConstantRelaxation{0.9};
-    options_.tolerance = 1e-3;
+  static LoopOptions options() {
+    LoopOptions result = testing::loop_options(testing::exact_run());
+    result.memory = Memory::latest;
+    result.relaxation = ConstantRelaxation{0.9};
+    result.tolerance = 1e-3;
+    return result;
   }
 
-  LoopOptions options_ = testing::loop_options(testing::exact_run());
   micro::Communicator alone_;
   MarchingFlow model_;
   CoupledFlow<2> flow_{model_, {{0, 0}}, hematocrit};
-  CoupledLoop loop_{testing::newtonian(0.01), options_,
+  CoupledLoop loop_{testing::newtonian(0.01), options(),
                     testing::synthetic(testing::power_law(0.02, 0.8), 0, 1), alone_};
 };
 
