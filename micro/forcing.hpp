@@ -18,8 +18,8 @@ struct VelocityProfile {
 template <int dim>
 struct Forcing {
   Tensor<dim> velocity_gradient = Tensor<dim>::Zero();  // [1/s] L(i,j) = d u_i / d x_j
-  Vector<dim> body_force = Vector<dim>::Zero();  // [N/m^3] minus the pressure gradient
-  double hematocrit = 0;                         // [-] volume (2-D: area) fraction of red cells
+  Vector<dim> body_force = Vector<dim>::Zero();         // [N/m^3] minus the pressure gradient
+  double hematocrit = 0;  // [-] volume (2-D: area) fraction of red cells
   std::optional<VelocityProfile> profile = std::nullopt;  // channel domains only
 };
 

@@ -12,8 +12,8 @@ namespace hemoscale::micro {
 struct Estimate {
   double mean = 0;
   double standard_error = 0;
-  double correlation_time = 0;    // [s] integrated autocorrelation time
-  double effective_samples = 0;   // [-] independent samples that carry the same information
+  double correlation_time = 0;   // [s] integrated autocorrelation time
+  double effective_samples = 0;  // [-] independent samples that carry the same information
 };
 
 /// Why a micro run ended.
@@ -30,14 +30,14 @@ struct LedgerEntry {
 /// What one micro run observed: averages after the warm-up.
 template <int dim>
 struct Observation {
-  double shear_rate = 0;              // [1/s] imposed: sqrt(2 D:D)
-  double hematocrit = 0;              // [-] of the domain as it was run
-  Estimate shear_stress;              // [Pa] total, suspending fluid included: component (0,1)
-  Estimate first_normal_difference;   // [Pa] total stress (0,0) minus (1,1)
+  double shear_rate = 0;             // [1/s] imposed: sqrt(2 D:D)
+  double hematocrit = 0;             // [-] of the domain as it was run
+  Estimate shear_stress;             // [Pa] total, suspending fluid included: component (0,1)
+  Estimate first_normal_difference;  // [Pa] total stress (0,0) minus (1,1)
   Tensor<dim> particle_stress = Tensor<dim>::Zero();  // [Pa] mean stress due to the cells
-  double averaging_time = 0;          // [s] after the warm-up
-  double warm_up_time = 0;            // [s]
-  std::int64_t steps = 0;             // [-] of this run
+  double averaging_time = 0;                          // [s] after the warm-up
+  double warm_up_time = 0;                            // [s]
+  std::int64_t steps = 0;                             // [-] of this run
   Termination termination = Termination::allowance_spent;
   std::vector<LedgerEntry> ledger;
 };

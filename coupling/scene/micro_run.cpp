@@ -106,8 +106,9 @@ void run_micro(const PreparedRun& run) {
   Summary summary;
   micro::EnsembleModel model = [&] {
     const auto scope = timings.measure("packing");
-    return micro::EnsembleModel(build_ensemble_parameters(settings, useful_threads(settings), run.force),
-                                static_cast<std::uint64_t>(settings.integer("case.seed")));
+    return micro::EnsembleModel(
+        build_ensemble_parameters(settings, useful_threads(settings), run.force),
+        static_cast<std::uint64_t>(settings.integer("case.seed")));
   }();
   double done = 0;
   if (run.restart) {
@@ -120,7 +121,7 @@ void run_micro(const PreparedRun& run) {
   }
   if (settings.boolean("output.trajectory")) {
     model.observe(micro::FrameClock::time, interval,
-                  trajectory_writer(run.results / "trajectory.h5"));
+                  trajectory_writer(run.results / "trajectory.h5", std::make_shared<std::mutex>()));
   }
   const auto series_path = run.results / "series.csv";
   SeriesWriter series = run.restart ? SeriesWriter::resume(series_path, columns(is_channel), done)
@@ -145,8 +146,8 @@ void run_micro(const PreparedRun& run) {
   while (done + model.time_step() / 2 < duration) {
     {
       const auto scope = timings.measure("micro model");
-      // The stretch ends at the next multiple of the interval. Stretches are rounded to whole steps,
-      // far shorter than an interval, so the nearest multiple is the one just reached.
+      // The stretch ends at the next multiple of the interval. Stretches are rounded to whole
+      // steps, far shorter than an interval, so the nearest multiple is the one just reached.
       const double next = std::min(duration, interval * (std::round(done / interval) + 1));
       seen = model.advance_by(forcing, next - done);
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "coupling/report/summary.hpp"
@@ -30,10 +31,12 @@ micro::TrajectoryLayout layout_of(const micro::EnsembleFrame& frame) {
 
 }  // namespace
 
-micro::FrameObserver trajectory_writer(const std::filesystem::path& file) {
+micro::FrameObserver trajectory_writer(const std::filesystem::path& file,
+                                       std::shared_ptr<std::mutex> hdf5) {
   // Shared, because an observer is copied.
   const auto writer = std::make_shared<std::optional<micro::TrajectoryWriter>>();
-  return [file, writer](const micro::EnsembleFrame& frame) {
+  return [file, writer, hdf5 = std::move(hdf5)](const micro::EnsembleFrame& frame) {
+    const std::lock_guard<std::mutex> lock(*hdf5);
     if (!*writer) {
       *writer = micro::TrajectoryWriter::resume(file, layout_of(frame), frame.step - 1);
     }
@@ -47,9 +50,10 @@ micro::FrameObserver trajectory_writer(const std::filesystem::path& file) {
 }
 
 EnsembleHook trajectory_hook(const std::filesystem::path& results, double interval) {
-  return [results, interval](int slot, micro::EnsembleModel& model) {
+  const auto hdf5 = std::make_shared<std::mutex>();
+  return [results, interval, hdf5](int slot, micro::EnsembleModel& model) {
     model.observe(micro::FrameClock::strain, interval,
-                  trajectory_writer(results / fmt::format("trajectory-{:03d}.h5", slot)));
+                  trajectory_writer(results / fmt::format("trajectory-{:03d}.h5", slot), hdf5));
   };
 }
 

@@ -1,11 +1,26 @@
 #include "micro/ensemble/neighbour_list.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+
+#include "micro/error.hpp"
 
 namespace hemoscale::micro {
 namespace {
+
+// Cells are moved back into the box long before they are this many boxes away.
+constexpr double furthest_image = 100;
+
+[[noreturn]] void throw_torn(std::size_t node, const EnsembleState& state) {
+  throw NumericalError(fmt::format(
+      "step {}, time {:.6g} s: node {} of cell {} lies at ({:.4g}, {:.4g}) m, too many boxes away "
+      "from a neighbour: cells keep to one box and its nearest images; the run is unstable: reduce "
+      "the time step, or stiffen membrane and contact",
+      state.step, state.time, node % state.nodes, node / state.nodes, state.x[node],
+      state.y[node]));
+}
 
 int bin(double position, double extent, int bins) {
   const int i = static_cast<int>(position / extent * bins);
@@ -94,7 +109,9 @@ void NeighbourList::find_partners(std::size_t node, const EnsembleState& state, 
         const bool own_ring = static_cast<std::size_t>(other.node) / state.nodes == own_cell &&
                               column == 0 && row == 0;
         if (!own_ring) {
-          assert(Image::is_known(column, row));
+          if (!Image::is_known(column, row)) {
+            throw_torn(node, state);
+          }
           entries_.push_back({other.node, Image::pack(column, row)});
         }
       }
@@ -103,6 +120,13 @@ void NeighbourList::find_partners(std::size_t node, const EnsembleState& state, 
 }
 
 void NeighbourList::build(const EnsembleState& state, const Box& box, double range) {
+  for (std::size_t i = 0; i < state.x.size(); ++i) {
+    const bool is_near = std::abs(state.x[i]) <= furthest_image * box.length &&
+                         std::abs(state.y[i]) <= furthest_image * box.height;
+    if (!is_near) {
+      throw_torn(i, state);
+    }
+  }
   place_nodes(state, box, range);
   first_.resize(state.x.size() + 1);
   entries_.clear();

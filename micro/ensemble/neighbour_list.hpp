@@ -23,6 +23,7 @@ class NeighbourList {
  public:
   /// Rebuild for the present positions; a grid of bins makes the cost proportional to the nodes.
   /// @pre the range is less than half the length and height of the box
+  /// @throws NumericalError with step, time, cell and node if a cell has been torn apart
   void build(const EnsembleState& state, const Box& box, double range);
 
   std::span<const Neighbour> of(std::size_t node) const {

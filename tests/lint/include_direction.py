@@ -27,9 +27,9 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 
 
 def module(path):
-    """First two levels of a path: the folder that counts as one module."""
+    """The folder that counts as one module; a header beside the folders is a module of its own."""
     parts = path.split("/")
-    return "/".join(parts[:2]) if len(parts) > 2 else parts[0]
+    return "/".join(parts[:2]) if len(parts) > 2 else path.rsplit(".", 1)[0]
 
 
 def check(root):
