@@ -208,6 +208,8 @@ void run_openfoam(const PreparedRun& run) {
         "functions in system/controlDict",
         summary_file.string(), (run.results / "log.solver").string()));
   }
+  // The case names the plug-in by this variable; it is read again here.
+  setenv("HEMOSCALE_OPENFOAM_LIBRARY", library.file().c_str(), 1);
   const auto flow = library.open_case(solver.folder(), build_reading(run.settings));
   Summary summary = read_summary(summary_file);
   const std::vector<Figure> figures = compare_profile(run, *flow);

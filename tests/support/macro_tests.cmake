@@ -27,4 +27,4 @@ hemoscale_test(NAME macro_restart_test LABEL restart LIBRARIES hemoscale_macro
 # The headers as the OpenFOAM library sees them.
 hemoscale_test(NAME macro_headers_cxx17_test LABEL unit LIBRARIES hemoscale_macro
   SOURCES unit/macro/headers_cxx17_test.cpp)
-set_target_properties(macro_headers_cxx17_test PROPERTIES CXX_STANDARD 17)
+set_target_properties(macro_headers_cxx17_test PROPERTIES CXX_STANDARD 17 DISABLE_PRECOMPILE_HEADERS ON)
