@@ -8,10 +8,10 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "coupling/rheology/monotone_regression.hpp"
+#include "coupling/rheology/pooled_knots.hpp"
 #include "coupling/rheology/student_t.hpp"
 
 namespace hemoscale::coupling {
@@ -64,115 +64,6 @@ void check(const std::vector<RheologySample>& samples, const FitBounds& bounds,
           "at least 1");
   require(pooling.hematocrit >= 0, "width of a row in hematocrit", pooling.hematocrit,
           "zero or positive");
-}
-
-// Samples that were pooled, in logarithms.
-struct Knot {
-  double shear_rate = 0;  // [1/s]
-  Uncertain log_viscosity;
-  double degrees_of_freedom = 0;
-};
-
-Uncertain log_viscosity(const RheologySample& sample) {
-  return {std::log(sample.viscosity), sample.viscosity_error / sample.viscosity};
-}
-
-// Pools in logarithms: along a power law the mean of log(viscosity) belongs to the mean of
-// log(shear rate) exactly.
-Knot pool(const std::vector<RheologySample>& samples) {
-  if (samples.size() == 1) {
-    return {samples[0].shear_rate, log_viscosity(samples[0]), degrees_of_freedom(samples[0])};
-  }
-  std::vector<Uncertain> rates;
-  std::vector<Uncertain> values;
-  for (const RheologySample& s : samples) {
-    values.push_back(log_viscosity(s));
-    rates.push_back({std::log(s.shear_rate), values.back().error});
-  }
-  Knot knot;
-  const std::size_t last = samples.size() - 1;
-  knot.shear_rate = std::clamp(std::exp(weighted_mean(rates, 0, last)), samples.front().shear_rate,
-                               samples.back().shear_rate);  // undoes rounding, no more
-  knot.log_viscosity.value = weighted_mean(values, 0, last);
-
-  const bool exact =
-      std::any_of(values.begin(), values.end(), [](const Uncertain& x) { return x.error == 0; });
-  if (exact) {
-    knot.degrees_of_freedom = infinity;
-    return knot;
-  }
-  double weights = 0;
-  for (const Uncertain& x : values) weights += 1 / (x.error * x.error);
-  double inverse_freedom = 0;  // Welch 1947
-  double inflation = 1;        // Meier 1953: the weights are themselves estimates
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double share = 1 / (values[i].error * values[i].error * weights);
-    const double freedom = degrees_of_freedom(samples[i]);
-    inverse_freedom += share * share / freedom;
-    inflation += 4 * share * (1 - share) / freedom;
-  }
-  knot.log_viscosity.error = std::sqrt(inflation / weights);
-  knot.degrees_of_freedom = 1 / inverse_freedom;
-  return knot;
-}
-
-// Sorted by hematocrit, then shear rate, then viscosity, so that the table does not depend on the
-// order in which samples arrived.
-std::vector<RheologySample> sorted(std::vector<RheologySample> samples) {
-  std::sort(samples.begin(), samples.end(), [](const RheologySample& a, const RheologySample& b) {
-    return std::tie(a.hematocrit, a.shear_rate, a.viscosity, a.viscosity_error) <
-           std::tie(b.hematocrit, b.shear_rate, b.viscosity, b.viscosity_error);
-  });
-  return samples;
-}
-
-// Splits a sorted list where `starts_group(first of group, candidate)` says so.
-template <class StartsGroup>
-std::vector<std::vector<RheologySample>> split(const std::vector<RheologySample>& samples,
-                                               const StartsGroup& starts_group) {
-  std::vector<std::vector<RheologySample>> groups;
-  for (const RheologySample& s : samples) {
-    if (groups.empty() || starts_group(groups.back().front(), s)) groups.emplace_back();
-    groups.back().push_back(s);
-  }
-  return groups;
-}
-
-using Group = std::vector<RheologySample>;  // the samples behind one knot, by rising shear rate
-
-// The samples of each row, in groups.
-std::vector<std::vector<Group>> groups_by_row(const std::vector<RheologySample>& samples,
-                                              const Pooling& pooling) {
-  const auto new_row = [&](const RheologySample& first, const RheologySample& s) {
-    return s.hematocrit > first.hematocrit + pooling.hematocrit;
-  };
-  const auto new_knot = [&](const RheologySample& first, const RheologySample& s) {
-    return s.shear_rate > first.shear_rate * pooling.shear_ratio;
-  };
-  std::vector<std::vector<Group>> rows;
-  for (std::vector<RheologySample>& row : split(sorted(samples), new_row)) {
-    std::stable_sort(row.begin(), row.end(), [](const RheologySample& a, const RheologySample& b) {
-      return a.shear_rate < b.shear_rate;
-    });
-    rows.push_back(split(row, new_knot));
-  }
-  return rows;
-}
-
-double mean_hematocrit(const std::vector<Group>& row) {
-  double sum = 0;
-  double lowest = infinity;
-  double highest = 0;
-  double count = 0;
-  for (const Group& group : row) {
-    for (const RheologySample& s : group) {
-      sum += s.hematocrit;
-      lowest = std::min(lowest, s.hematocrit);
-      highest = std::max(highest, s.hematocrit);
-      ++count;
-    }
-  }
-  return std::clamp(sum / count, lowest, highest);  // undoes rounding: equal values stay themselves
 }
 
 // Half-widths after the monotone fit. If every raw value errs by at most h, the fitted value of
@@ -238,11 +129,11 @@ struct FittedRow {
   int moved_by_bounds = 0;
 };
 
-FittedRow fit_row(const std::vector<Group>& groups, const FitBounds& bounds) {
+FittedRow fit_row(const std::vector<SampleGroup>& groups, const FitBounds& bounds) {
   FittedRow result;
   result.row.hematocrit = mean_hematocrit(groups);
   std::vector<Uncertain> values;
-  for (const Group& group : groups) {
+  for (const SampleGroup& group : groups) {
     result.knots.push_back(pool(group));
     result.row.shear_rates.push_back(result.knots.back().shear_rate);
     values.push_back(result.knots.back().log_viscosity);
@@ -309,10 +200,10 @@ RheologyTable::Fit RheologyTable::fit(const std::vector<RheologySample>& samples
   Fit result;
   std::vector<FittedRow> rows;
   int knots = 0;
-  for (std::vector<Group>& groups : groups_by_row(samples, pooling)) {
+  for (std::vector<SampleGroup>& groups : groups_by_row(samples, pooling)) {
     rows.push_back(fit_row(groups, bounds));
     while (const auto steep = too_steep(rows.back().row, bounds.steepest_slope)) {
-      Group& merged = groups[*steep];
+      SampleGroup& merged = groups[*steep];
       const auto next = groups.begin() + static_cast<std::ptrdiff_t>(*steep) + 1;
       merged.insert(merged.end(), next->begin(), next->end());
       groups.erase(next);

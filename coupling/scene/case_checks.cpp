@@ -83,13 +83,6 @@ std::vector<Fault> find_faults(const Settings& settings, bool force) {
     list.attempt("micro.synthetic.law",
                  [&] { build_law(settings, "micro.synthetic.law", "micro.synthetic"); });
   }
-  if (settings.quantity("coupling.highest_relative_viscosity") <=
-      settings.quantity("coupling.lowest_relative_viscosity")) {
-    list.add("coupling.highest_relative_viscosity",
-             fmt::format("{:g} does not exceed coupling.lowest_relative_viscosity = {:g}; raise it",
-                         settings.quantity("coupling.highest_relative_viscosity"),
-                         settings.quantity("coupling.lowest_relative_viscosity")));
-  }
   if (settings.text("macro.model") == "channel") {
     list.attempt("macro.channel.height", [&] {
       build_channel(settings);

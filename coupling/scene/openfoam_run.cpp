@@ -78,6 +78,8 @@ class SolverRun {
                                            "-np",
                                            std::to_string(ranks()),
                                            "--oversubscribe",
+                                           "--bind-to",
+                                           "none",
                                            "--mca",
                                            "mpi_yield_when_idle",
                                            "1"};

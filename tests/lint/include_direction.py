@@ -10,8 +10,8 @@ Run as: include_direction.py ROOT            (the check)
 
 import pathlib
 import re
-import sys
-import tempfile
+
+from lint_script import main
 
 TOP = ("micro", "macro", "coupling")
 SUFFIXES = {".hpp", ".cpp"}
@@ -65,36 +65,24 @@ def check(root):
     return faults
 
 
-def self_test():
-    """Plants one fault of each kind; every one must be found."""
-    planted = {
-        "micro/cells/a.hpp": '#include "macro/flow_field.hpp"\n',
-        "macro/flow_field.hpp": '#include "coupling/x/y.hpp"\n#include <fvMesh.H>\n',
-        "coupling/x/y.hpp": '#include "coupling/z/w.hpp"\n#include "missing.hpp"\n',
-        "coupling/z/w.hpp": '#include "coupling/x/y.hpp"\n#include "coupling/z/none.hpp"\n',
-        "micro/mps/m.hpp": '#include "micro/ensemble/e.hpp"\n',
-        "micro/ensemble/e.hpp": "\n",
-    }
-    expected = [
-        "micro must not include macro",
-        "macro must not include coupling",
-        "OpenFOAM header fvMesh.H",
-        "include each other",
-        "not written from the repository root",
-        "which does not exist",
-        "micro/mps must not see micro/ensemble",
-    ]
-    with tempfile.TemporaryDirectory() as folder:
-        for name, text in planted.items():
-            path = pathlib.Path(folder) / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
-        found = check(folder)
-    return [f"self-test: not found: {e}" for e in expected if not any(e in f for f in found)]
-
+# One fault of each kind.
+PLANTED = {
+    "micro/cells/a.hpp": '#include "macro/flow_field.hpp"\n',
+    "macro/flow_field.hpp": '#include "coupling/x/y.hpp"\n#include <fvMesh.H>\n',
+    "coupling/x/y.hpp": '#include "coupling/z/w.hpp"\n#include "missing.hpp"\n',
+    "coupling/z/w.hpp": '#include "coupling/x/y.hpp"\n#include "coupling/z/none.hpp"\n',
+    "micro/mps/m.hpp": '#include "micro/ensemble/e.hpp"\n',
+    "micro/ensemble/e.hpp": "\n",
+}
+EXPECTED = [
+    "micro must not include macro",
+    "macro must not include coupling",
+    "OpenFOAM header fvMesh.H",
+    "include each other",
+    "not written from the repository root",
+    "which does not exist",
+    "micro/mps must not see micro/ensemble",
+]
 
 if __name__ == "__main__":
-    problems = self_test() if sys.argv[1:] == ["--self-test"] else check(sys.argv[1])
-    for problem in problems:
-        print(problem, file=sys.stderr)
-    sys.exit(1 if problems else 0)
+    main(check, PLANTED, EXPECTED)

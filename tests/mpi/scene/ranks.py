@@ -39,7 +39,7 @@ trajectory = false
 
 
 def mpirun(ranks, *arguments):
-    command = ["mpirun", "-np", str(ranks), "--oversubscribe", "--mca", "mpi_yield_when_idle", "1"]
+    command = ["mpirun", "-np", str(ranks), "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"]
     if os.geteuid() == 0:
         command.append("--allow-run-as-root")
     return subprocess.run(

@@ -107,7 +107,7 @@ Outcome CaseFolder::run(const std::string& command,
 }
 
 std::string CaseFolder::mpirun(int ranks) {
-  std::string command = "mpirun --oversubscribe --mca mpi_yield_when_idle 1 ";
+  std::string command = "mpirun --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 ";
   if (::geteuid() == 0) command += "--allow-run-as-root ";
   return command + "-np " + std::to_string(ranks);
 }
