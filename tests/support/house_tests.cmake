@@ -15,3 +15,14 @@ if(HEMOSCALE_CLANG_FORMAT)
     "git ls-files '*.hpp' '*.cpp' | xargs '${HEMOSCALE_CLANG_FORMAT}' --dry-run -Werror")
   set_tests_properties(lint.format PROPERTIES LABELS lint TIMEOUT 60 WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
 endif()
+
+# The installed package serves another project.
+set(sanitizer_flags "")
+if(HEMOSCALE_SANITIZE)
+  set(sanitizer_flags "-fsanitize=address,undefined")
+endif()
+add_test(NAME verification.installed_package COMMAND ${CMAKE_COMMAND}
+  -DBUILD=${CMAKE_BINARY_DIR} -DWORK=${CMAKE_BINARY_DIR}/installed -DGENERATOR=${CMAKE_GENERATOR}
+  -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/verification/install "-DFLAGS=${sanitizer_flags}"
+  -P ${CMAKE_CURRENT_SOURCE_DIR}/verification/install/installed_package.cmake)
+set_tests_properties(verification.installed_package PROPERTIES LABELS verification TIMEOUT 200)
