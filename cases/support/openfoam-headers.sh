@@ -35,8 +35,8 @@ fi
 if [ -e "$target" ] && [ ! -f "$stamp" ] && [ -n "$(ls -A "$target" 2>/dev/null)" ]; then
   fail "$target exists and was not made by this script; name another folder or remove it"
 fi
-for tool in tar xz; do
-  command -v $tool >/dev/null || fail "'$tool' is missing; install it: apt-get install --no-install-recommends tar xz-utils"
+for tool in tar bzip2 xz; do
+  command -v $tool >/dev/null || fail "'$tool' is missing; install it: apt-get install --no-install-recommends tar bzip2 xz-utils"
 done
 
 mkdir -p "$(dirname -- "$target")" || fail "cannot make the folder of $target"
