@@ -1,2 +1,4 @@
 // Carries the precompiled headers of the tests (see HemoScaleTest.cmake).
-int main() { return 0; }
+int main() {
+  return 0;
+}
