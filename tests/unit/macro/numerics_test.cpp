@@ -57,7 +57,7 @@ struct LongBessel {
   std::complex<long double> I1;
 };
 LongBessel long_series(double x) {
-  const long double square = static_cast<long double>(x) * x;
+  const long double square = static_cast<long double>(x) * static_cast<long double>(x);
   const std::complex<long double> quarter(0, square / 4);
   const long double part = static_cast<long double>(x) * std::sqrt(0.5L);
   const std::complex<long double> z(part, part);
@@ -98,7 +98,7 @@ TEST(Bessel, difference_is_that_of_the_values) {
 
 // The series of the difference in extended precision, with 1 - xi^(2 k) from the logarithm.
 std::complex<long double> long_difference(double x, double xi) {
-  const long double square = static_cast<long double>(x) * x;
+  const long double square = static_cast<long double>(x) * static_cast<long double>(x);
   const std::complex<long double> quarter(0, square / 4);
   std::complex<long double> term = 1;
   std::complex<long double> sum = 0;

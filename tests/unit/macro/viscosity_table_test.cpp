@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <utility>
@@ -43,9 +45,10 @@ TEST(ViscosityTable, reproduces_a_power_law_on_uneven_knots) {
   const auto law = [](double rate) { return 0.017 * std::pow(rate, -0.37); };
   const std::vector<double> rates{0.1, 0.13, 2, 3, 400};
   std::vector<double> viscosities;
-  for (const double rate : rates) viscosities.push_back(law(rate));
+  std::transform(rates.begin(), rates.end(), std::back_inserter(viscosities), law);
   const ViscosityTable table = one_row(rates, viscosities);
-  for (double rate = 0.1; rate <= 400; rate *= 1.17) {
+  for (int i = 0; i <= 50; ++i) {
+    const double rate = std::min(0.1 * std::pow(4000, i / 50.0), 400.0);
     EXPECT_NEAR(table.viscosity(rate, 0.4), law(rate), 1e-13 * law(rate)) << rate;
     EXPECT_NEAR(table.logarithmic_slope(rate, 0.4), -0.37, 1e-12) << rate;
   }
@@ -146,7 +149,7 @@ TEST(ViscosityTable, refuses_knots_that_rounding_makes_one) {
 TEST(MonotoneSlopes, of_a_parabola_are_exact_where_it_is_monotone) {
   const std::vector<double> x{1, 1.5, 1.7, 2.5, 4};
   std::vector<double> y;
-  for (const double at : x) y.push_back(at * at);
+  std::transform(x.begin(), x.end(), std::back_inserter(y), [](double at) { return at * at; });
   const std::vector<double> slopes = monotone_slopes(x, y);
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(slopes[i], 2 * x[i], 1e-13);
 }

@@ -41,20 +41,20 @@ class EveryFlow : public testing::TestWithParam<Subject> {
  protected:
   // A point whose neighbourhood of `margin` lies inside the flow.
   Vector<3> point_inside(double margin) {
-    const double x = numbers_.between(-h, h);
+    const double x = numbers.between(-h, h);
     if (!GetParam().is_pipe)
-      return {x, numbers_.between(margin, h - margin), numbers_.between(-h, h)};
-    const double r = numbers_.between(margin, h - 2 * margin);
-    const double angle = numbers_.between(0, 6.28);
+      return {x, numbers.between(margin, h - margin), numbers.between(-h, h)};
+    const double r = numbers.between(margin, h - 2 * margin);
+    const double angle = numbers.between(0, 6.28);
     return {x, r * std::cos(angle), r * std::sin(angle)};
   }
-  double some_time() { return numbers_.between(GetParam().earliest, GetParam().latest); }
+  double some_time() { return numbers.between(GetParam().earliest, GetParam().latest); }
 
   double velocity(const Vector<3>& x, double t) const {
     return GetParam().flow->at(x, t)->velocity[0];
   }
 
-  RandomNumbers numbers_{41};
+  RandomNumbers numbers{41};
 };
 
 // Fourth-order central differences.
@@ -191,7 +191,8 @@ TEST(StartUp, early_and_late_formulas_meet_at_the_hand_over) {
   const double after = 0.1 * diffusion_time * (1 + 1e-14);
   const auto poiseuille = start_up_poiseuille();
   const auto couette = start_up_couette();
-  for (double y = 0; y < h; y += 0.01 * h) {
+  for (int i = 0; i <= 100; ++i) {
+    const double y = h * (i / 100.0);
     for (const auto& flow : {poiseuille, couette}) {
       const FlowState<3> early = *flow->at({0, y, 0}, before);
       const FlowState<3> late = *flow->at({0, y, 0}, after);
@@ -227,7 +228,8 @@ TEST(StartUp, tends_to_the_steady_flow) {
   const PlanePoiseuille<3> poiseuille({h, G, mu});
   const PlaneCouette<3> couette({h, 5e-3});
   const double late = 4 * diffusion_time;
-  for (double y = 0; y <= h; y += 0.1 * h) {
+  for (int i = 0; i <= 10; ++i) {
+    const double y = h * (i / 10.0);
     const Vector<3> x(0, y, 0);
     EXPECT_NEAR(start_up_poiseuille()->at(x, late)->velocity[0], poiseuille.at(x, 0)->velocity[0],
                 1e-15 * G * h * h / mu);
