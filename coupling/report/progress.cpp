@@ -38,8 +38,9 @@ std::string format_duration(double seconds) {
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
   const std::int64_t minutes = (whole + 30) / 60;
-  if (minutes < 48 * 60) return fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
-  return fmt::format("{} d {:02} h", minutes / (24 * 60), minutes / 60 % 24);
+  constexpr std::int64_t day = 1440;  // [min]
+  if (minutes < 2 * day) return fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
+  return fmt::format("{} d {:02} h", minutes / day, minutes / 60 % 24);
 }
 
 Progress::Progress(std::string title, double start, double total, ProgressOptions options)

@@ -117,7 +117,8 @@ SeriesWriter::~SeriesWriter() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-SeriesWriter SeriesWriter::create(const std::filesystem::path& path, std::vector<Column> columns) {
+SeriesWriter SeriesWriter::create(const std::filesystem::path& path,
+                                  const std::vector<Column>& columns) {
   require_columns(path, columns);
   make_folder_of(path);
   SeriesWriter writer(path, columns.size(), open_to_append(path, O_TRUNC));
@@ -125,10 +126,10 @@ SeriesWriter SeriesWriter::create(const std::filesystem::path& path, std::vector
   return writer;
 }
 
-SeriesWriter SeriesWriter::resume(const std::filesystem::path& path, std::vector<Column> columns,
-                                  double last) {
+SeriesWriter SeriesWriter::resume(const std::filesystem::path& path,
+                                  const std::vector<Column>& columns, double last) {
   require_columns(path, columns);
-  if (!std::filesystem::exists(path)) return create(path, std::move(columns));
+  if (!std::filesystem::exists(path)) return create(path, columns);
   const std::string text = read_file(path);
   const std::string header = header_of(columns);
   if (!std::string_view(text).starts_with(header)) {

@@ -21,12 +21,12 @@ class SeriesWriter {
  public:
   /// Starts a new file; an older one of that name is emptied.
   /// @throws EnvironmentError with path and the system's reason
-  static SeriesWriter create(const std::filesystem::path& path, std::vector<Column> columns);
+  static SeriesWriter create(const std::filesystem::path& path, const std::vector<Column>& columns);
 
   /// Continues after a restart: keeps the rows whose first column is at most `last`, drops later
   /// ones and a line that a killed process left unfinished. Starts a new file if there is none.
   /// @throws EnvironmentError also if the header differs or an earlier row is not one of numbers
-  static SeriesWriter resume(const std::filesystem::path& path, std::vector<Column> columns,
+  static SeriesWriter resume(const std::filesystem::path& path, const std::vector<Column>& columns,
                              double last);
 
   SeriesWriter(SeriesWriter&& other) noexcept;

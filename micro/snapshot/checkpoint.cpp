@@ -108,7 +108,7 @@ std::filesystem::path write_checkpoint(const std::filesystem::path& folder,
                     "keep at least 1",
                     checkpoint.number, keep));
   }
-  const std::filesystem::path path = folder / fmt::format("checkpoint-{:06}.h5", checkpoint.number);
+  std::filesystem::path path = folder / fmt::format("checkpoint-{:06}.h5", checkpoint.number);
   const std::string image = to_image(checkpoint, path);
   write_durably(path, user_block(image) + image);
   remove_superseded(folder, checkpoint.number, keep);
@@ -141,6 +141,7 @@ std::vector<std::filesystem::path> list_checkpoints(const std::filesystem::path&
     throw EnvironmentError(folder.string() + ": cannot list the folder: " + error.message());
   std::sort(numbered.rbegin(), numbered.rend());
   std::vector<std::filesystem::path> paths;
+  paths.reserve(numbered.size());
   for (auto& [number, path] : numbered) paths.push_back(std::move(path));
   return paths;
 }

@@ -53,16 +53,21 @@ std::string from_link(const std::string& link) {
   return name;
 }
 
+std::string path_of(const std::string& group, const std::string& link) {
+  std::string path = group;
+  return path.append("/").append(link);
+}
+
 void write_texts(const File& file, const std::string& group,
                  const std::map<std::string, std::string>& texts) {
   file.make_group(group);
-  for (const auto& [name, text] : texts) file.write_text(group + "/" + to_link(name), text);
+  for (const auto& [name, text] : texts) file.write_text(path_of(group, to_link(name)), text);
 }
 
 std::map<std::string, std::string> read_texts(const File& file, const std::string& group) {
   std::map<std::string, std::string> texts;
   for (const std::string& link : file.names(group)) {
-    texts[from_link(link)] = file.read_text(group + "/" + link);
+    texts[from_link(link)] = file.read_text(path_of(group, link));
   }
   return texts;
 }
@@ -72,7 +77,8 @@ void write_arrays(const File& file, const std::string& group, hid_t file_type, h
                   const std::map<std::string, std::vector<Value>>& arrays) {
   file.make_group(group);
   for (const auto& [name, values] : arrays) {
-    file.write(group + "/" + to_link(name), file_type, memory_type, {values.size()}, values.data());
+    file.write(path_of(group, to_link(name)), file_type, memory_type, {values.size()},
+               values.data());
   }
 }
 
@@ -81,7 +87,7 @@ std::map<std::string, std::vector<Value>> read_arrays(const File& file, const st
                                                       hid_t memory_type) {
   std::map<std::string, std::vector<Value>> arrays;
   for (const std::string& link : file.names(group)) {
-    const std::string name = group + "/" + link;
+    const std::string name = path_of(group, link);
     const std::vector<hsize_t> extent = file.extent(name);
     if (extent.size() != 1) {
       throw EnvironmentError(file.path().string() + ": " + name +

@@ -15,11 +15,8 @@ std::uint64_t checksum(std::string_view bytes) {
 
 std::string to_hexadecimal(std::uint64_t value) {
   constexpr std::string_view digits = "0123456789abcdef";
-  std::string text(16, '0');
-  for (auto digit = text.rbegin(); digit != text.rend(); ++digit) {
-    *digit = digits[value & 0xF];
-    value >>= 4;
-  }
+  std::string text;
+  for (int shift = 60; shift >= 0; shift -= 4) text += digits[(value >> shift) & 0xF];
   return text;
 }
 

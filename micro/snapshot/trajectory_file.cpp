@@ -164,7 +164,7 @@ void reserve_space(const std::filesystem::path& path, std::int64_t bytes) {
 /// An upper bound of what a frame adds to the file: its values, the chunks of the scalars, and the
 /// index, whose blocks grow with the root of the number of frames.
 std::int64_t bytes_of_frame(const TrajectoryLayout& layout, std::int64_t frames) {
-  constexpr std::int64_t per_set = 16 * 1024;
+  constexpr std::int64_t per_set = std::int64_t{16} * 1024;
   const auto sets = static_cast<std::int64_t>(layout.observables.size()) + 5;
   const std::int64_t arrays = layout.has_velocities ? 2 : 1;
   const std::int64_t real = layout.single_precision ? 4 : 8;

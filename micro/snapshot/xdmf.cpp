@@ -164,7 +164,7 @@ std::filesystem::path write_xdmf(const std::filesystem::path& trajectory) {
   };
   const std::filesystem::path views = beside(".frames.hdf5");
   write_views(reader, views);
-  const std::filesystem::path path = beside(".xdmf");
+  std::filesystem::path path = beside(".xdmf");
   write_durably(
       path,
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"3.0\">\n <Domain>\n"

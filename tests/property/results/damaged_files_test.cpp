@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -83,7 +84,8 @@ TEST(DamagedTrajectory, ends_in_an_error_or_in_the_right_arrays) {
   constexpr int frames = 6;
   {
     micro::TrajectoryWriter writer = micro::TrajectoryWriter::create(path, sample_layout());
-    for (int k = 1; k <= frames; ++k) append(writer, sample_frame(writer.layout(), 10 * k));
+    for (std::int64_t k = 1; k <= frames; ++k)
+      append(writer, sample_frame(writer.layout(), 10 * k));
   }
   const std::string whole = content_of(path);
   std::mt19937_64 random(20062);

@@ -36,21 +36,21 @@ micro::TrajectoryLayout layout_with(int more_scalars) {
 }
 
 /// Frames of steps 10, 20, ...
-void write_frames(const fs::path& path, int count, int more_scalars = 0) {
+void write_frames(const fs::path& path, std::int64_t count, int more_scalars = 0) {
   TrajectoryWriter writer = TrajectoryWriter::create(path, layout_with(more_scalars));
-  for (int k = 1; k <= count; ++k) append(writer, sample_frame(writer.layout(), 10 * k));
+  for (std::int64_t k = 1; k <= count; ++k) append(writer, sample_frame(writer.layout(), 10 * k));
 }
 
 /// Number of frames. Fails the test if the first or one of the last is not as it was written; those
 /// between lie in the same parts of the index.
-int whole_frames(const fs::path& path) {
+std::int64_t whole_frames(const fs::path& path) {
   const TrajectoryReader reader(path);
   for (std::int64_t k = 0; k < reader.frame_count(); ++k) {
     if (k > 0 && k + 4 < reader.frame_count()) continue;
     EXPECT_TRUE(are_equal(reader.frame(k), sample_frame(reader.layout(), 10 * (k + 1))))
         << "frame " << k;
   }
-  return static_cast<int>(reader.frame_count());
+  return reader.frame_count();
 }
 
 /// What another program relies on that takes the number of frames from the steps.
@@ -65,7 +65,7 @@ bool every_step_has_its_values(const fs::path& path, const micro::TrajectoryLayo
 /// Frames before the one that is interrupted: few, and such that the index of the chunks or the
 /// chunk of the scalars grows.
 struct Start {
-  int frames = 0;
+  std::int64_t frames = 0;
   int more_scalars = 0;
 };
 void PrintTo(const Start& start, std::ostream* stream) {
@@ -74,7 +74,7 @@ void PrintTo(const Start& start, std::ostream* stream) {
 class KilledAppend : public testing::TestWithParam<Start> {};
 
 TEST_P(KilledAppend, leaves_all_earlier_frames_readable_and_can_be_continued) {
-  const int before = GetParam().frames;
+  const std::int64_t before = GetParam().frames;
   const micro::TrajectoryLayout layout = layout_with(GetParam().more_scalars);
   const ScratchFolder folder("killed-append-" + std::to_string(before));
   const fs::path original = folder / "original.h5";
@@ -95,7 +95,7 @@ TEST_P(KilledAppend, leaves_all_earlier_frames_readable_and_can_be_continued) {
       was_reached = ending.was_reached;
       ASSERT_EQ(ending.was_killed, was_reached);
       EXPECT_TRUE(every_step_has_its_values(path, layout));
-      const int frames = whole_frames(path);
+      const std::int64_t frames = whole_frames(path);
       EXPECT_THAT(frames, testing::AnyOf(before, before + 1));
       if (!was_reached) {
         EXPECT_EQ(frames, before + 1);

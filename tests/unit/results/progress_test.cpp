@@ -20,37 +20,37 @@ using testing::Not;
 class ProgressTest : public testing::Test {
  protected:
   void SetUp() override {
-    stream_ = std::tmpfile();
-    ASSERT_NE(stream_, nullptr);
-    options_.stream = stream_;
-    options_.clock = [this] { return now_; };
+    stream = std::tmpfile();
+    ASSERT_NE(stream, nullptr);
+    options.stream = stream;
+    options.clock = [this] { return now; };
   }
-  void TearDown() override { std::fclose(stream_); }
+  void TearDown() override { std::fclose(stream); }
 
   std::string shown() {
-    std::rewind(stream_);
+    std::rewind(stream);
     std::string text;
     std::array<char, 4096> block{};
     for (std::size_t count = 1; count > 0;) {
-      count = std::fread(block.data(), 1, block.size(), stream_);
+      count = std::fread(block.data(), 1, block.size(), stream);
       text.append(block.data(), count);
     }
     return text;
   }
 
-  std::FILE* stream_ = nullptr;
-  double now_ = 100;  // [s]
-  coupling::ProgressOptions options_;
+  std::FILE* stream = nullptr;
+  double now = 100;  // [s]
+  coupling::ProgressOptions options;
 };
 
 TEST_F(ProgressTest, plain_lines_come_at_their_interval) {
   {
-    Progress progress("pass", 0, 10, options_);
+    Progress progress("pass", 0, 10, options);
     for (int k = 1; k <= 9; ++k) {
-      now_ += 4;
+      now += 4;
       progress.update(k, "change 0.1");
     }
-    now_ += 4;
+    now += 4;
     progress.update(10);
   }
   EXPECT_EQ(shown(),
@@ -62,21 +62,21 @@ TEST_F(ProgressTest, plain_lines_come_at_their_interval) {
 }
 
 TEST_F(ProgressTest, a_restart_is_not_counted_as_speed) {
-  Progress progress("time", 80, 100, options_);
-  now_ += 50;
+  Progress progress("time", 80, 100, options);
+  now += 50;
   progress.update(90);
   EXPECT_THAT(shown(), HasSubstr("time 90 of 100 (90 %), 50 s left"));
 }
 
 TEST_F(ProgressTest, a_terminal_shows_one_line_that_is_rewritten) {
-  options_.terminal_columns = 40;
-  Progress progress("pass", 0, 4, options_);
-  now_ += 1;
+  options.terminal_columns = 40;
+  Progress progress("pass", 0, 4, options);
+  now += 1;
   progress.update(1, "a note that is far too long for this terminal");
-  now_ += 1;
+  now += 1;
   progress.update(2);
   progress.message("a message");
-  now_ += 1;
+  now += 1;
   progress.finish();
   progress.update(3);  // says nothing any more
   const std::string text = shown();
@@ -88,9 +88,9 @@ TEST_F(ProgressTest, a_terminal_shows_one_line_that_is_rewritten) {
 }
 
 TEST_F(ProgressTest, other_ranks_show_nothing) {
-  options_.is_root = false;
+  options.is_root = false;
   {
-    Progress progress("pass", 0, 4, options_);
+    Progress progress("pass", 0, 4, options);
     progress.update(1);
     progress.message("text");
   }
@@ -99,15 +99,15 @@ TEST_F(ProgressTest, other_ranks_show_nothing) {
 
 TEST_F(ProgressTest, an_unknown_end_gives_no_remaining_time) {
   {
-    Progress progress("step", 0, 0, options_);
-    now_ += 5;
+    Progress progress("step", 0, 0, options);
+    now += 5;
     progress.update(1200);
   }
   EXPECT_EQ(shown(), "step 1200\nstep 1200, took 5.0 s\n");
 }
 
 TEST_F(ProgressTest, a_file_is_not_a_terminal) {
-  Progress progress("pass", 0, 4, options_);
+  Progress progress("pass", 0, 4, options);
   progress.update(1);
   EXPECT_THAT(shown(), Not(HasSubstr("\r")));
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -26,7 +27,7 @@ using testing::HasSubstr;
 
 void write_frames(const fs::path& path, const TrajectoryLayout& layout, int count) {
   TrajectoryWriter writer = TrajectoryWriter::create(path, layout);
-  for (int k = 1; k <= count; ++k) append(writer, sample_frame(layout, 10 * k));
+  for (std::int64_t k = 1; k <= count; ++k) append(writer, sample_frame(layout, 10 * k));
 }
 
 TrajectoryLayout plain_layout() {
@@ -142,7 +143,7 @@ TEST(Trajectory, a_restart_drops_later_frames_and_keeps_earlier_ones) {
     append(writer, sample_frame(layout, 2000));
     const TrajectoryReader reader(path);
     ASSERT_EQ(reader.frame_count(), expected.kept + 1);
-    for (int k = 0; k < expected.kept; ++k) {
+    for (std::int64_t k = 0; k < expected.kept; ++k) {
       EXPECT_TRUE(are_equal(reader.frame(k), sample_frame(layout, 10 * (k + 1))));
     }
     EXPECT_TRUE(are_equal(reader.frame(expected.kept), sample_frame(layout, 2000)));
