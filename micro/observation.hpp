@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,13 @@ struct LedgerEntry {
   double stop_above = 0;  // [-]
 };
 
+/// The flow through a channel, for the macro scale.
+struct ChannelObservation {
+  double flow_rate = 0;          // [m^2/s] per depth
+  double pressure_drop = 0;      // [Pa] between the measured sections
+  double wall_shear_stress = 0;  // [Pa]
+};
+
 /// What one micro run observed: averages after the warm-up.
 template <int dim>
 struct Observation {
@@ -40,6 +48,7 @@ struct Observation {
   std::int64_t steps = 0;                             // [-] of this run
   Termination termination = Termination::allowance_spent;
   std::vector<LedgerEntry> ledger;
+  std::optional<ChannelObservation> channel = std::nullopt;  // of models that resolve one
 };
 
 }  // namespace hemoscale::micro

@@ -1,4 +1,4 @@
-#include "micro/ensemble/velocity_profile.hpp"
+#include "micro/velocity_profile.hpp"
 
 #include <fmt/core.h>
 

@@ -7,7 +7,7 @@
 #include "micro/ensemble/box.hpp"
 #include "micro/ensemble/frame.hpp"
 #include "micro/ensemble/state.hpp"
-#include "micro/ensemble/velocity_profile.hpp"
+#include "micro/velocity_profile.hpp"
 
 namespace hemoscale::micro {
 

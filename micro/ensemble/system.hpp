@@ -6,8 +6,8 @@
 #include "micro/ensemble/box.hpp"
 #include "micro/ensemble/pair_potential.hpp"
 #include "micro/ensemble/ring_forces.hpp"
-#include "micro/ensemble/velocity_profile.hpp"
 #include "micro/ensemble/wall_potential.hpp"
+#include "micro/velocity_profile.hpp"
 
 namespace hemoscale::micro {
 

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <climits>
 #include <cstddef>
 #include <numeric>
@@ -108,6 +110,50 @@ std::vector<std::string> Communicator::all_gather(const std::string& bytes) cons
         joined.substr(static_cast<std::size_t>(offsets[i]), static_cast<std::size_t>(lengths[i])));
   }
   return all;
+}
+
+void Communicator::all_gather_ranges(const double* own, std::size_t size, double* whole,
+                                     std::size_t whole_size) const {
+  std::vector<unsigned long long> sizes(static_cast<std::size_t>(size_));
+  // Both lengths travel, so that a rank which expects another total is seen, and refused, by all.
+  std::vector<unsigned long long> totals(sizes.size(), whole_size);
+  sizes[0] = size;
+  if (communicator_ != MPI_COMM_NULL) {
+    const std::array<unsigned long long, 2> mine = {size, whole_size};
+    std::vector<unsigned long long> pairs(2 * sizes.size());
+    require_success(MPI_Allgather(mine.data(), 2, MPI_UNSIGNED_LONG_LONG, pairs.data(), 2,
+                                  MPI_UNSIGNED_LONG_LONG, communicator_),
+                    "MPI_Allgather");
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      sizes[i] = pairs[2 * i];
+      totals[i] = pairs[2 * i + 1];
+    }
+  }
+  const auto sum = std::accumulate(sizes.begin(), sizes.end(), 0ULL);
+  for (std::size_t i = 0; i < totals.size(); ++i) {
+    if (totals[i] != sum) {
+      throw EnvironmentError(
+          fmt::format("the ranks hold {} values together, but rank {} expects {}; give every row "
+                      "of a system to one rank",
+                      sum, i, totals[i]));
+    }
+  }
+  if (communicator_ == MPI_COMM_NULL) {
+    std::copy(own, own + size, whole);
+    return;
+  }
+  message_length(sum * sizeof(double), rank_);
+  std::vector<int> lengths(sizes.size());
+  std::vector<int> offsets(sizes.size());
+  int offset = 0;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    lengths[i] = static_cast<int>(sizes[i]);
+    offsets[i] = offset;
+    offset += lengths[i];
+  }
+  require_success(MPI_Allgatherv(own, static_cast<int>(size), MPI_DOUBLE, whole, lengths.data(),
+                                 offsets.data(), MPI_DOUBLE, communicator_),
+                  "MPI_Allgatherv");
 }
 
 std::string Communicator::broadcast(const std::string& bytes) const {

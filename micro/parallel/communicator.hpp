@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,18 @@ class Communicator {
   /// Byte strings of all ranks, in the order of the ranks, on every rank.
   std::vector<std::string> all_gather(const std::string& bytes) const;
 
+  /// Joins the ranges of all ranks, in the order of the ranks, on every rank.
+  /// @param own    `size` values of this rank
+  /// @param whole  room for `whole_size` values, the sum of all sizes
+  /// @throws EnvironmentError on every rank if the sizes do not add up
+  void all_gather_ranges(const double* own, std::size_t size, double* whole,
+                         std::size_t whole_size) const;
+
   /// The root's byte string on every rank.
   std::string broadcast(const std::string& bytes) const;
+
+  /// For libraries that take a communicator themselves; MPI_COMM_NULL of the process alone.
+  MPI_Comm native() const { return communicator_; }
 
   /// Turns a failure on any rank into the same failure on all of them. Every rank calls it at the
   /// same place, with its own message or an empty string for success.

@@ -24,5 +24,7 @@ function(hemoscale_test)
   target_compile_definitions(${T_NAME} PRIVATE HEMOSCALE_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
     HEMOSCALE_BINARY_DIR="${CMAKE_BINARY_DIR}")
   gtest_discover_tests(${T_NAME} TEST_PREFIX "${T_LABEL}." DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS ${T_LABEL} TIMEOUT ${T_TIMEOUT})
+    # Tests run side by side: threads of each would wait for each other more than they compute. What
+    # must hold for several threads is tested by setting their number.
+    PROPERTIES LABELS ${T_LABEL} TIMEOUT ${T_TIMEOUT} ENVIRONMENT OMP_NUM_THREADS=1)
 endfunction()

@@ -1,6 +1,7 @@
 hemoscale_test(NAME macro_unit_test LABEL unit LIBRARIES hemoscale_macro
   SOURCES
     unit/macro/kinematics_test.cpp
+    unit/macro/decaying_flows_test.cpp
     unit/macro/viscosity_laws_test.cpp
     unit/macro/parameter_check_test.cpp
     unit/macro/viscosity_table_test.cpp

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "micro/model.hpp"
+#include "micro/particles/particle_set.hpp"
+
+namespace hemoscale::micro {
+
+/// Adds every array of the set to a snapshot, under names that begin with `prefix`.
+template <int dim>
+void store_particles(const ParticleSet<dim>& particles, const std::string& prefix,
+                     Snapshot& snapshot);
+
+/// @throws ParameterError naming the array if one is missing or has the wrong length
+template <int dim>
+ParticleSet<dim> load_particles(const Snapshot& snapshot, const std::string& prefix);
+
+}  // namespace hemoscale::micro
