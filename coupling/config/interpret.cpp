@@ -9,6 +9,7 @@
 
 #include "coupling/config/collect_values.hpp"
 #include "coupling/config/nearest_key.hpp"
+#include "coupling/config/overrides.hpp"
 #include "coupling/config/read_value.hpp"
 #include "coupling/error.hpp"
 
@@ -82,20 +83,29 @@ class Applicability {
 
 class Interpreter {
  public:
-  Interpreter(const ParameterTree& tree, const std::vector<Parameter>& table)
+  Interpreter(const ParameterTree& tree, const std::vector<Parameter>& table,
+              const std::vector<Override>& overrides)
       : tree_(tree),
         table_(table),
         reader_(faults_),
-        layers_(collect_values(tree, table, reader_, faults_)) {}
+        layers_(collect_values(tree, table, reader_, faults_)),
+        overrides_(
+            collect_values(override_tree(overrides, faults_), table, reader_, faults_).base) {}
 
   Settings interpret(const std::string& asked_variant) {
     const Layer* variant = chosen_variant(asked_variant);
-    Values effective = layers_.base.values;
-    if (variant != nullptr) {
-      for (const auto& [key, given] : variant->values) effective[key] = given;
+    std::vector<const Layer*> layers = {&layers_.base};
+    if (variant != nullptr) layers.push_back(variant);
+    if (!overrides_.values.empty()) layers.push_back(&overrides_);
+    // What holds after each layer; the last is what counts.
+    std::vector<Values> stack;
+    for (const Layer* layer : layers) {
+      stack.push_back(stack.empty() ? Values() : stack.back());
+      for (const auto& [key, given] : layer->values) stack.back()[key] = given;
     }
+    const Values& effective = stack.back();
     const Applicability applicable(table_, effective);
-    refuse_inapplicable(applicable, variant);
+    refuse_inapplicable(layers, stack);
     for (const Parameter& parameter : table_) {
       if (applicable.applies(parameter) == Answer::yes) {
         assign(parameter, effective, applicable, variant);
@@ -131,22 +141,24 @@ class Interpreter {
     return nullptr;
   }
 
-  /// A key that was given although it does not apply is a fault of the layer that holds it:
-  ///  - in a variant always, because nobody else can have switched it off;
-  ///  - in the case itself only if it does not apply there either. A variant may switch to another
+  /// A key that was given although it does not apply is a fault of the layer that holds it, unless
+  /// a later layer has switched it off or was waited for:
+  ///  - of the overrides always, because nobody else can have switched it off; of a variant
+  ///    likewise, unless the overrides have;
+  ///  - of the case itself only if it does not apply there either. A variant may switch to another
   ///    model, and the keys of the case for the first model then rest; and a key of the case may
   ///    wait for a variant that makes it apply.
-  void refuse_inapplicable(const Applicability& effective, const Layer* variant) {
-    const Applicability alone(table_, layers_.base.values);
+  ///
+  /// @param stack  what holds after each of the layers
+  void refuse_inapplicable(const std::vector<const Layer*>& layers,
+                           const std::vector<Values>& stack) {
+    std::vector<Applicability> after;
+    for (const Values& values : stack) after.emplace_back(table_, values);
     for (const Parameter& parameter : table_) {
-      if (effective.applies(parameter) != Answer::no) continue;
-      if (variant != nullptr) {
-        const auto given = variant->values.find(parameter.key);
-        if (given != variant->values.end()) add_inapplicable(parameter, given->second, effective);
-      }
-      const auto given = layers_.base.values.find(parameter.key);
-      if (given != layers_.base.values.end() && alone.applies(parameter) == Answer::no) {
-        add_inapplicable(parameter, given->second, alone);
+      for (std::size_t i = layers.size(); i-- > 0;) {
+        if (after[i].applies(parameter) != Answer::no) break;  // here or in what stands below
+        const auto given = layers[i]->values.find(parameter.key);
+        if (given != layers[i]->values.end()) add_inapplicable(parameter, given->second, after[i]);
       }
     }
   }
@@ -184,8 +196,9 @@ class Interpreter {
 
   void add_missing(const Parameter& parameter, const Layer* variant) {
     // One mistake, one fault: a misspelled key was reported with the name that it should have.
-    if (layers_.base.probably_misspelled.count(parameter.key) > 0) return;
-    if (variant != nullptr && variant->probably_misspelled.count(parameter.key) > 0) return;
+    for (const Layer* layer : {&std::as_const(layers_.base), variant, &std::as_const(overrides_)}) {
+      if (layer != nullptr && layer->probably_misspelled.count(parameter.key) > 0) return;
+    }
     std::string message = "is missing";
     if (!parameter.applies_when.empty()) {
       message += "; it is needed when " + conditions_text(parameter.applies_when);
@@ -261,18 +274,20 @@ class Interpreter {
   std::vector<Fault> faults_;
   ValueReader reader_;  // one for the case, its variants and the defaults
   Layers layers_;
+  Layer overrides_;
   Settings settings_;
 };
 
 }  // namespace
 
 Settings interpret(const ParameterTree& tree, const std::string& variant,
-                   const std::vector<Parameter>& table) {
-  return Interpreter(tree, table).interpret(variant);
+                   const std::vector<Parameter>& table, const std::vector<Override>& overrides) {
+  return Interpreter(tree, table, overrides).interpret(variant);
 }
 
-Settings interpret(const ParameterTree& tree, const std::string& variant) {
-  return interpret(tree, variant, parameter_table());
+Settings interpret(const ParameterTree& tree, const std::string& variant,
+                   const std::vector<Override>& overrides) {
+  return interpret(tree, variant, parameter_table(), overrides);
 }
 
 std::vector<std::string> variant_names(const ParameterTree& tree) {

@@ -5,11 +5,11 @@
 
 #include "coupling/config/parameter_table.hpp"
 
-// The parameter table is written down in four files, one function each; parameter_table() joins
-// them. Nothing but parameter_table.cpp calls these.
+// The parameter table is written down in five files, a function for each part; parameter_table()
+// joins them. Nothing but parameter_table.cpp calls these.
 namespace hemoscale::coupling {
 
-/// case, scene, fluid, output.
+/// case, scene, the choice of the micro model, fluid; output.
 std::vector<Parameter> case_parameters();
 std::vector<Parameter> output_parameters();
 
@@ -21,6 +21,10 @@ std::vector<Parameter> loop_parameters();
 
 /// micro.
 std::vector<Parameter> micro_parameters();
+
+/// micro.plasma, and the flows that it can resolve.
+std::vector<Parameter> plasma_parameters();
+const std::vector<std::string>& plasma_flows();
 
 /// The parameters of every viscosity law under `section`, e.g. "law" gives "law.casson.viscosity".
 /// Those of a law apply when `chooser` names it.

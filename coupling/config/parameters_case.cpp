@@ -28,6 +28,13 @@ std::vector<Parameter> case_parameters() {
        .choices = {"coupled", "micro"},
        .default_value = "coupled",
        .sentence = "The coupled loop of macro flow and micro models, or one micro model alone."},
+      {.key = "micro.model",
+       .kind = Kind::choice,
+       .choices = {"ensemble", "plasma", "synthetic"},
+       .default_value = "ensemble",
+       .sentence =
+           "Deformable cells in a given flow (ensemble), plasma resolved by particles (plasma), or "
+           "a known law with noise, for tests of the coupling (synthetic)."},
       {.key = "fluid.plasma_viscosity",
        .kind = Kind::quantity,
        .unit = "Pa s",
@@ -43,7 +50,8 @@ std::vector<Parameter> case_parameters() {
       {.key = "fluid.hematocrit",
        .kind = Kind::number,
        .range = between(0, 0.75),
-       .required = true,
+       .default_value = "0",
+       .default_when = {{"micro.model", "plasma"}},
        .sentence = "Volume fraction of red cells in the feed; area fraction in two dimensions."},
   };
 }

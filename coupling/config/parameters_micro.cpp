@@ -52,17 +52,11 @@ Parameter of_lone_run(const std::string& key, const std::string& unit,
 std::vector<Parameter> domain_parameters() {
   const Condition ensemble{"micro.model", "ensemble"};
   return {
-      {.key = "micro.model",
-       .kind = Kind::choice,
-       .choices = {"ensemble", "synthetic"},
-       .default_value = "ensemble",
-       .sentence =
-           "Deformable cells in a given flow (ensemble), or a known law with noise, for tests "
-           "of the coupling (synthetic)."},
       {.key = "micro.domain",
        .kind = Kind::choice,
        .choices = {"shear-box", "channel"},
        .default_value = "shear-box",
+       .applies_when = {ensemble},
        .sentence =
            "Periodic box in simple shear, or channel between two walls; coupled scenes need "
            "the shear box."},
@@ -210,7 +204,7 @@ std::vector<Parameter> synthetic_parameters() {
 std::vector<Parameter> micro_parameters() {
   std::vector<Parameter> table;
   for (const auto& part : {domain_parameters(), cell_parameters(), force_parameters(),
-                           run_parameters(), synthetic_parameters()}) {
+                           run_parameters(), plasma_parameters(), synthetic_parameters()}) {
     table.insert(table.end(), part.begin(), part.end());
   }
   return table;

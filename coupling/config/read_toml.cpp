@@ -165,7 +165,30 @@ Location place_of_assertion(const std::string& file, const std::string& text) {
   return place;
 }
 
+/// Every part of a value stands where the whole was set.
+void place_at(const Location& location, ParameterTree& tree) {
+  tree.location = location;
+  for (ParameterTree& element : tree.elements) place_at(location, element);
+  for (auto& [name, child] : tree.children) place_at(location, child);
+}
+
 }  // namespace
+
+std::optional<ParameterTree> read_toml_value(const std::string& text, const Location& location) {
+  const std::string line = "value = " + text;
+  if (place_of_too_many_dots("", line).line > 0) return std::nullopt;
+  try {
+    const toml::table table = toml::parse(std::string_view(line));
+    if (table.size() != 1) return std::nullopt;  // further lines with keys of their own
+    ParameterTree tree = make_tree("", *table.get("value"));
+    place_at(location, tree);
+    return tree;
+  } catch (const toml::parse_error&) {
+    return std::nullopt;
+  } catch (const ParserAssertion&) {
+    return std::nullopt;
+  }
+}
 
 ParameterTree read_toml(const std::filesystem::path& file) {
   const std::string name = file.string();

@@ -27,6 +27,7 @@ constexpr const char* footer =
     "  hemoscale run cases/channel-feedback --variant openfoam\n"
     "  mpirun -np 4 hemoscale run cases/channel-feedback\n"
     "  hemoscale run cases/channel-feedback --restart\n"
+    "  hemoscale chart cases/ensemble-time-step --map\n"
     "  hemoscale reference micro.membrane\n"
     "\nExit codes:\n"
     "  0  done\n"
@@ -37,6 +38,8 @@ constexpr const char* footer =
     "  5  anything else: a defect of this program\n";
 
 constexpr const char* case_help = "Case folder, or the case.toml in it";
+constexpr const char* set_help =
+    "KEY=VALUE: replace a key of the case and its variant, e.g. micro.cells=40; repeatable";
 constexpr const char* variant_help = "Variant of the case; default: case.variant, or none";
 
 /// CLI11 says of a misspelled command only that one is required.
@@ -53,6 +56,14 @@ void complain(const CLI::App& app, const CLI::ParseError& error, int count, char
   app.exit(error);
 }
 
+void add_overrides(CLI::App& command, std::vector<std::string>& texts) {
+  // One value each time: what follows may be the case.
+  command.add_option("--set", texts, set_help)
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 }  // namespace
 
 Command parse_command_line(int count, char** arguments) {
@@ -66,12 +77,14 @@ Command parse_command_line(int count, char** arguments) {
   CLI::App* check_app = app.add_subcommand("check", "Read a case and report all its faults");
   check_app->add_option("CASE", check.case_folder, case_help)->required();
   check_app->add_option("--variant", check.variant, variant_help);
+  add_overrides(*check_app, check.set);
   check_app->footer("\nExample:\n  hemoscale check cases/channel-feedback --variant openfoam\n");
 
   RunCommand run;
   CLI::App* run_app = app.add_subcommand("run", "Run a case; also under mpirun");
   run_app->add_option("CASE", run.case_folder, case_help)->required();
   run_app->add_option("--variant", run.variant, variant_help);
+  add_overrides(*run_app, run.set);
   run_app->add_option("--results", run.results,
                       "Folder of the results; default: results in the case, or results/VARIANT");
   run_app->add_flag("--restart", run.restart, "Continue from the newest checkpoint");
@@ -80,7 +93,23 @@ Command parse_command_line(int count, char** arguments) {
       "\nExamples:\n"
       "  hemoscale run cases/channel-feedback\n"
       "  mpirun -np 4 hemoscale run cases/channel-feedback --results out\n"
+      "  hemoscale run cases/channel-feedback --set fluid.hematocrit=0.3 --results thin\n"
       "  hemoscale run cases/channel-feedback --restart\n");
+
+  ChartCommand chart;
+  CLI::App* chart_app = app.add_subcommand(
+      "chart", "Run a study: error against CPU time, observed orders, or a stability map");
+  chart_app->add_option("STUDY", chart.study, "Study file, or a folder with study.toml")
+      ->required();
+  chart_app->add_flag("--map", chart.map, "Find the stability boundary of the study's [map]");
+  chart_app->add_flag("--list", chart.list, "Tell what would be run, and run nothing");
+  chart_app->add_flag("--fresh", chart.fresh, "Run again what is finished already");
+  chart_app->add_option("--jobs", chart.jobs, "Runs at once; more than 1 spoils their CPU times")
+      ->check(CLI::Range(1, 1024));
+  chart_app->footer(
+      "\nExamples:\n"
+      "  hemoscale chart cases/ensemble-time-step --list\n"
+      "  hemoscale chart cases/ensemble-time-step --map --jobs 2\n");
 
   ReferenceCommand reference;
   CLI::App* reference_app =
@@ -104,6 +133,7 @@ Command parse_command_line(int count, char** arguments) {
   }
   if (check_app->parsed()) return check;
   if (run_app->parsed()) return run;
+  if (chart_app->parsed()) return chart;
   if (reference_app->parsed()) return reference;
   if (doctor_app->parsed()) return DoctorCommand{};
   return Answered{exit_usage};

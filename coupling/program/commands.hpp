@@ -19,6 +19,10 @@ void check(const CheckCommand& command, std::ostream& out);
 /// @throws the errors of run_case()
 void run(const RunCommand& command, micro::Communicator&& communicator, std::ostream& out);
 
+/// Runs a study and draws its chart or its map.
+/// @throws CaseError with all faults of the study, EnvironmentError
+void chart(const ChartCommand& command, std::ostream& out);
+
 /// Prints the parameter table.
 /// @throws CaseError for a key that is not known
 void print_reference(const ReferenceCommand& command, std::ostream& out);

@@ -29,6 +29,10 @@ struct Execute {
         std::cout);
     return exit_done;
   }
+  int operator()(const ChartCommand& command) const {
+    chart(command, std::cout);
+    return exit_done;
+  }
   int operator()(const ReferenceCommand& command) const {
     print_reference(command, std::cout);
     return exit_done;

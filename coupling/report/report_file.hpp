@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-// For the sources of this folder alone: files with this layer's EnvironmentError.
+// For the sources of report and study: files with this layer's EnvironmentError.
 namespace hemoscale::coupling {
 
 /// Throws EnvironmentError "<path>: cannot <action>: <text of the system's error number>".

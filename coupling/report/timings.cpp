@@ -17,7 +17,13 @@ double cpu_clock() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+const double loaded_at = wall_clock();  // [s]
+
 }  // namespace
+
+PartTiming process_timing() {
+  return {wall_clock() - loaded_at, cpu_clock(), 1};
+}
 
 Timings::Scope::Scope(Timings& timings, std::string part)
     : timings_(timings),

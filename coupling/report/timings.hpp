@@ -14,6 +14,9 @@ struct PartTiming {
   std::int64_t calls = 0;  // [-]
 };
 
+/// The whole process until now; its wall time counts from the loading of this library.
+PartTiming process_timing();
+
 /// Named timers. Parts may nest; the time of an inner part is then also in the outer one.
 class Timings {
  public:

@@ -6,6 +6,7 @@
 #include "coupling/scene/build_law.hpp"
 #include "coupling/scene/build_loop.hpp"
 #include "coupling/scene/build_micro.hpp"
+#include "coupling/scene/plasma_scene.hpp"
 #include "macro/error.hpp"
 #include "micro/ensemble/step_limit.hpp"
 #include "micro/error.hpp"
@@ -60,11 +61,48 @@ void check_ensemble(const Settings& settings, bool force, FaultList& list) {
   });
 }
 
+template <int dim>
+void check_plasma(const Settings& settings, bool force, FaultList& list) {
+  list.attempt("micro.plasma.flow", [&] {
+    const PlasmaScene<dim> scene = build_plasma_scene<dim>(settings, force);
+    const bool has_step = settings.has("micro.plasma.time_step");
+    if (!(scene.time_step > 0)) {
+      list.add("micro.plasma.time_step",
+               "is missing; neither a speed nor a viscous limit suggests one");
+      return;
+    }
+    for (const micro::Limit& limit : plasma_limits(scene)) {
+      if (!limit.exceeded() || force) continue;
+      list.add(has_step ? "micro.plasma.time_step" : "micro.plasma.flow",
+               micro::describe(limit) + "; --force runs anyway");
+    }
+    if (scene.sections && scene.sections->downstream <= scene.sections->upstream) {
+      list.add("micro.plasma.length",
+               "leaves no room for the sections at which the channel is measured; it must exceed "
+               "two heights");
+    }
+  });
+}
+
 }  // namespace
 
 std::vector<Fault> find_faults(const Settings& settings, bool force) {
   FaultList list(settings);
   if (settings.text("micro.model") == "ensemble") check_ensemble(settings, force, list);
+  if (settings.text("micro.model") == "plasma") {
+    if (settings.text("scene.kind") != "micro") {
+      list.add("micro.model",
+               "\"plasma\" is a scene of its own and gives no viscosity law; use scene.kind = "
+               "\"micro\", or micro.model = \"ensemble\"");
+      return list.faults;
+    }
+    if (plasma_dimension(settings) == 3) {
+      check_plasma<3>(settings, force, list);
+    } else {
+      check_plasma<2>(settings, force, list);
+    }
+    return list.faults;
+  }
   if (settings.text("scene.kind") == "micro") {
     if (settings.text("micro.model") == "synthetic") {
       list.add(
@@ -73,7 +111,7 @@ std::vector<Fault> find_faults(const Settings& settings, bool force) {
     }
     return list.faults;
   }
-  if (settings.text("micro.domain") != "shear-box") {
+  if (settings.text("micro.model") == "ensemble" && settings.text("micro.domain") != "shear-box") {
     list.add("micro.domain",
              "a coupled scene measures viscosity in homogeneous shear; use \"shear-box\", or "
              "scene.kind = \"micro\" for a channel alone");

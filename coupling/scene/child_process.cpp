@@ -2,12 +2,17 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -50,9 +55,33 @@ std::string name(const ChildProcess& child) {
   return child.command.front();
 }
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// Waits until there is something to read, at most until the child's time is over.
+/// @returns whether there is
+bool wait_for_output(int descriptor, double remaining) {
+  constexpr double longest_wait = 3600;  // [s] poll() counts milliseconds in an int
+  const double wait = std::clamp(remaining, 0.0, longest_wait);
+  pollfd waiting{descriptor, POLLIN, 0};
+  return poll(&waiting, 1, static_cast<int>(std::ceil(1000 * wait))) > 0;
+}
+
 }  // namespace
 
 int run_child(const ChildProcess& child, const std::function<void(const std::string&)>& on_line) {
+  return run_measured_child(child, on_line).status;
+}
+
+ChildEnd run_measured_child(const ChildProcess& child,
+                            const std::function<void(const std::string&)>& on_line) {
   std::vector<std::string> command = child.command;
   std::vector<std::string> environment = child_environment(child.environment);
   const std::vector<char*> arguments = pointers(command);
@@ -64,6 +93,7 @@ int run_child(const ChildProcess& child, const std::function<void(const std::str
   if (pipe2(output, O_CLOEXEC) != 0 || pipe2(failure, O_CLOEXEC) != 0) {
     throw EnvironmentError(fmt::format("{}: no pipe: {}", name(child), std::strerror(errno)));
   }
+  const Clock::time_point start = Clock::now();
   const pid_t parent = getpid();
   const pid_t process = fork();
   if (process < 0) {
@@ -84,12 +114,21 @@ int run_child(const ChildProcess& child, const std::function<void(const std::str
   close(output[1]);
   close(failure[1]);
 
+  ChildEnd end;
   std::ofstream log(child.log, std::ios::binary);
   std::string line;
   char buffer[4096];
-  ssize_t count = 0;
-  while ((count = read(output[0], buffer, sizeof buffer)) > 0 || (count < 0 && errno == EINTR)) {
-    if (count < 0) continue;
+  while (true) {
+    const double remaining = child.longest - seconds_since(start);
+    if (remaining <= 0) {
+      end.timed_out = true;
+      kill(process, SIGKILL);
+      break;  // children of the child may keep the pipe open
+    }
+    if (!wait_for_output(output[0], remaining)) continue;
+    const ssize_t count = read(output[0], buffer, sizeof buffer);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
     log.write(buffer, count);
     log.flush();
     for (ssize_t i = 0; i < count; ++i) {
@@ -107,8 +146,11 @@ int run_child(const ChildProcess& child, const std::function<void(const std::str
   close(output[0]);
   close(failure[0]);
   int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  rusage used{};
+  while (wait4(process, &status, 0, &used) < 0 && errno == EINTR) {
   }
+  end.wall = seconds_since(start);
+  end.cpu = seconds(used.ru_utime) + seconds(used.ru_stime);
   if (failed_to_start) {
     throw EnvironmentError(
         fmt::format("{}: cannot be started: {}; `hemoscale doctor` tells what is "
@@ -119,7 +161,8 @@ int run_child(const ChildProcess& child, const std::function<void(const std::str
     throw EnvironmentError(
         fmt::format("{}: cannot be written: {}", child.log.string(), std::strerror(errno)));
   }
-  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  end.status = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  return end;
 }
 
 }  // namespace hemoscale::coupling

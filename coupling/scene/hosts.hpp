@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "coupling/config/settings.hpp"
@@ -31,5 +32,8 @@ void run_openfoam(const PreparedRun& run);
 
 /// A micro scene alone: an ensemble in a shear box or a channel. One process.
 void run_micro(const PreparedRun& run);
+
+/// A plasma scene alone. Collective; the least-squares method shares its work among the ranks.
+void run_plasma(const PreparedRun& run, const std::shared_ptr<const micro::Communicator>& ranks);
 
 }  // namespace hemoscale::coupling

@@ -184,10 +184,14 @@ void run_micro(const PreparedRun& run) {
     summary.figures.push_back({table.columns[k].name + " in the last interval",
                                table.rows.back()[k], table.columns[k].unit});
   }
+  summary.figures.push_back({"limit of the time step", model.step_limit().time_step, "s"});
+  summary.figures.push_back({"time step", model.time_step(), "s"});
+  summary.figures.push_back({"steps", std::round(done / model.time_step()), "-"});
   summary.settings = settings.as_text();
   summary.host = this_host(useful_threads(settings), 1);
   summary.ledger = seen.ledger;
   summary.statements = model_statements(settings);
+  timings.add("process", process_timing());
   summary.timings = timings.parts();
   write_summary(run.results / "summary.json", summary);
 }

@@ -12,6 +12,7 @@
 #include "coupling/scene/case_checks.hpp"
 #include "coupling/scene/coupled_run.hpp"
 #include "coupling/scene/hosts.hpp"
+#include "coupling/scene/plasma_scene.hpp"
 #include "coupling/scene/results_folder.hpp"
 #include "macro/kinematics.hpp"
 #include "micro/ensemble/step_limit.hpp"
@@ -79,12 +80,20 @@ CasePlace find_case(const fs::path& named) {
                     "is not a case folder: it holds neither case.toml nor system/controlDict"}});
 }
 
-Settings load_case(const fs::path& case_folder, const std::string& variant, bool force) {
+Settings load_case(const fs::path& case_folder, const std::string& variant, bool force,
+                   const std::vector<Override>& overrides) {
   const CasePlace place = find_case(case_folder);
-  const Settings settings = interpret(read_toml(place.file), variant);
-  if (const std::vector<Fault> faults = find_faults(settings, force); !faults.empty()) {
-    throw CaseError(faults);
+  const Settings settings = interpret(read_toml(place.file), variant, overrides);
+  std::vector<Fault> faults = find_faults(settings, force);
+  if (settings.text("scene.kind") == "coupled" && settings.text("macro.model") == "openfoam") {
+    for (const Override& setting : overrides) {
+      const Location& at = setting.value.location;
+      faults.push_back({at.file, at.line, at.column, setting.key,
+                        "does not reach the solver of OpenFOAM, whose plug-in reads the case file "
+                        "itself; write a variant with this key and name it with --variant"});
+    }
   }
+  if (!faults.empty()) throw CaseError(faults);
   return settings;
 }
 
@@ -98,18 +107,22 @@ std::string describe_case(const Settings& settings) {
                               settings.text("macro.openfoam.case"));
   }
   if (settings.text("micro.model") == "ensemble") text += describe_ensemble(settings);
+  if (settings.text("micro.model") == "plasma") text += describe_plasma(settings);
   for (const std::string& statement : model_statements(settings))
     text += "note: " + statement + "\n";
   return text;
 }
 
 void run_case(const RunOptions& options, micro::Communicator&& communicator, std::ostream& log) {
-  const micro::Communicator group = std::move(communicator);
+  const auto ranks = std::make_shared<const micro::Communicator>(std::move(communicator));
+  const micro::Communicator& group = *ranks;
   const CasePlace place = find_case(options.case_folder);
-  const Settings settings = load_case(options.case_folder, options.variant, options.force);
+  const Settings settings =
+      load_case(options.case_folder, options.variant, options.force, options.overrides);
   const bool is_micro = settings.text("scene.kind") == "micro";
+  const bool is_plasma = is_micro && settings.text("micro.model") == "plasma";
   const bool is_openfoam = !is_micro && settings.text("macro.model") == "openfoam";
-  if (group.size() > 1 && (is_micro || is_openfoam)) {
+  if (group.size() > 1 && ((is_micro && !is_plasma) || is_openfoam)) {
     throw CaseError(
         {{place.file.string(), 0, 0, is_micro ? "scene.kind" : "macro.model",
           fmt::format("this scene runs on one process, but {} were started; {}", group.size(),
@@ -141,7 +154,9 @@ void run_case(const RunOptions& options, micro::Communicator&& communicator, std
 
   const PreparedRun run{settings, place.folder,    place.file,    variant,
                         results,  options.restart, options.force, say};
-  if (is_micro) {
+  if (is_plasma) {
+    run_plasma(run, ranks);
+  } else if (is_micro) {
     run_micro(run);
   } else if (is_openfoam) {
     run_openfoam(run);

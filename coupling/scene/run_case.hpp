@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <iosfwd>
 #include <string>
+#include <vector>
 
+#include "coupling/config/read_case.hpp"
 #include "coupling/config/settings.hpp"
 #include "micro/parallel/communicator.hpp"
 
@@ -16,6 +18,7 @@ struct RunOptions {
   std::filesystem::path results;      // empty: results/ in the case, results/VARIANT of a variant
   bool restart = false;
   bool force = false;  // beyond a stability limit
+  std::vector<Override> overrides = {};
 };
 
 /// The folder of a case and its case file.
@@ -31,7 +34,7 @@ CasePlace find_case(const std::filesystem::path& named);
 /// Reads, interprets and checks a case: values, combinations of keys, limits of the methods.
 /// @throws CaseError with all faults, EnvironmentError
 Settings load_case(const std::filesystem::path& case_folder, const std::string& variant,
-                   bool force = false);
+                   bool force = false, const std::vector<Override>& overrides = {});
 
 /// What a run would do, as text: SI values that matter, limits and margins.
 std::string describe_case(const Settings& settings);

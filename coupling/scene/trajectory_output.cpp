@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,17 @@ micro::TrajectoryLayout layout_of(const micro::EnsembleFrame& frame) {
   layout.is_periodic = {true, !frame.walls};
   layout.single_precision = true;
   return layout;
+}
+
+/// Where each of `wanted` stands in `identities`, which hold the same numbers.
+std::vector<std::size_t> places_of(const std::vector<std::int64_t>& identities,
+                                   const std::vector<std::int64_t>& wanted) {
+  std::unordered_map<std::int64_t, std::size_t> place;
+  for (std::size_t i = 0; i < identities.size(); ++i) place[identities[i]] = i;
+  std::vector<std::size_t> places;
+  places.reserve(wanted.size());
+  for (const std::int64_t identity : wanted) places.push_back(place.at(identity));
+  return places;
 }
 
 }  // namespace
@@ -56,6 +68,58 @@ EnsembleHook trajectory_hook(const std::filesystem::path& results, double interv
                   trajectory_writer(results / fmt::format("trajectory-{:03d}.h5", slot), hdf5));
   };
 }
+
+template <int dim>
+void ParticleTrajectory::append(const micro::ParticleSet<dim>& particles,
+                                const micro::PeriodicBox<dim>& box, std::int64_t step,
+                                double time) {
+  if (!gap_.empty()) return;
+  if (!writer_) {
+    micro::TrajectoryLayout layout;
+    layout.particles = "particles";
+    layout.creator_version = program_version();
+    layout.dimension = dim;
+    layout.free_particles = static_cast<std::int64_t>(particles.size());
+    for (int axis = 0; axis < dim; ++axis) {
+      layout.box_edges.push_back(box.extent()[axis]);
+      layout.is_periodic.push_back(box.periodic[static_cast<std::size_t>(axis)]);
+    }
+    layout.has_velocities = true;
+    layout.single_precision = true;
+    identities_ = particles.identities;
+    writer_ = std::make_shared<micro::TrajectoryWriter>(
+        micro::TrajectoryWriter::resume(file_, layout, step - 1));
+  }
+  if (particles.identities.size() != identities_.size()) {
+    gap_ = fmt::format(
+        "particles enter and leave: trajectory.h5 ends before {:.6g} s; particles.csv holds the "
+        "last "
+        "ones",
+        time);
+    return;
+  }
+  // Frames keep the order of the first; particles may have been reordered in memory.
+  std::vector<double> positions;
+  std::vector<double> velocities;
+  for (const std::size_t i : places_of(particles.identities, identities_)) {
+    positions.insert(positions.end(), particles.positions[i].data(),
+                     particles.positions[i].data() + dim);
+    velocities.insert(velocities.end(), particles.velocities[i].data(),
+                      particles.velocities[i].data() + dim);
+  }
+  micro::TrajectoryFrame frame;
+  frame.step = step;
+  frame.time = time;
+  frame.positions = positions;
+  frame.velocities = velocities;
+  frame.box_offset = box.slide;
+  writer_->append(frame);
+}
+
+template void ParticleTrajectory::append<2>(const micro::ParticleSet<2>&,
+                                            const micro::PeriodicBox<2>&, std::int64_t, double);
+template void ParticleTrajectory::append<3>(const micro::ParticleSet<3>&,
+                                            const micro::PeriodicBox<3>&, std::int64_t, double);
 
 void finish_trajectories(const std::filesystem::path& results) {
   std::vector<std::filesystem::path> files;

@@ -9,7 +9,8 @@ hemoscale_test(NAME coupling_unit LABEL unit LIBRARIES hemoscale_coupling
     unit/coupling/sampling_test.cpp
     unit/coupling/scheme_parts_test.cpp
     unit/coupling/student_t_test.cpp
-    unit/coupling/transfer_test.cpp)
+    unit/coupling/transfer_test.cpp
+    unit/coupling/channel_forcing_test.cpp)
 hemoscale_test(NAME coupling_property LABEL property LIBRARIES hemoscale_coupling
   SOURCES
     property/coupling/monotone_fit_test.cpp

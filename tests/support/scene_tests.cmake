@@ -17,3 +17,7 @@ hemoscale_program_test(restart kill_and_restart restart/scene/kill_and_restart.p
 hemoscale_program_test(mpi ranks mpi/scene/ranks.py 200)
 hemoscale_program_test(verification channel_feedback verification/scene/channel_feedback.py 300)
 set_tests_properties(mpi.ranks PROPERTIES RUN_SERIAL ON)
+hemoscale_program_test(property plasma_bad_input property/scene/plasma_bad_input.py 120)
+hemoscale_program_test(mpi plasma_ranks mpi/scene/plasma_ranks.py 200)
+hemoscale_program_test(verification plasma_cases verification/scene/plasma_cases.py 200)
+set_tests_properties(mpi.plasma_ranks PROPERTIES RUN_SERIAL ON)
