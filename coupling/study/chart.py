@@ -237,6 +237,8 @@ def draw_chart(arguments):
         axis.set_yscale("log")
     time_axis.set_xlabel("CPU time of the run [s]")
     name, unit = split_unit(arguments.error)
+    if name.startswith("error of ") and "error" in name[len("error of ") :]:
+        name = name[len("error of ") :]  # the figure is an error itself
     time_axis.set_ylabel(axis_label(name, unit))
     if refinement is not None:
         axes[0][1].set_xlabel(axis_label(key, refinement_unit, prefix))

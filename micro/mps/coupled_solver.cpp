@@ -47,9 +47,25 @@ void CoupledSolver<dim>::prepare(const NodeGeometry<dim>& nodes, double rate) {
     traits.null_space =
         ConstantNullSpace{static_cast<std::size_t>(dim), static_cast<std::size_t>(dim + 1)};
   }
-  // The saddle point needs a direct solver; every rank solves the whole.
-  solver_ = make_node_solver(nodes, *matrix_.pattern, traits, solving_, alone_);
+  // Every rank solves the whole.
+  if (solving_.kind == LinearSolverKind::aggregate) {
+    solver_ = std::make_unique<SaddlePointSolver<dim>>(nodes, scaled_coefficients(nodes.spacing),
+                                                       solving_.tolerance, traits.null_space);
+  } else {
+    solver_ = make_node_solver(nodes, *matrix_.pattern, traits, solving_, alone_);
+  }
   solver_->prepare(matrix_);
+}
+
+template <int dim>
+SaddlePointCoefficients CoupledSolver<dim>::scaled_coefficients(double spacing) const {
+  const double squared = spacing * spacing;
+  const double friction = fluid_.viscosity() / viscosity_scale_;
+  SaddlePointCoefficients c;
+  c.inertia = fluid_.density * rate_ * squared / viscosity_scale_;
+  c.viscous = friction * squared;
+  c.smoothing = squared / (c.inertia + stabilisation_ * friction);
+  return c;
 }
 
 template <int dim>
@@ -63,10 +79,7 @@ void CoupledSolver<dim>::gather_matrix(const NodeGeometry<dim>& nodes) {
 template <int dim>
 void CoupledSolver<dim>::assemble(const NodeGeometry<dim>& nodes) {
   const double l = nodes.spacing;
-  const double inertia = fluid_.density * rate_ * l * l / viscosity_scale_;
-  const double viscous = fluid_.viscosity() / viscosity_scale_ * l * l;  // [m^2]
-  const double smoothing =
-      l * l / (inertia + stabilisation_ * fluid_.viscosity() / viscosity_scale_);  // [m^2]
+  const auto [inertia, viscous, smoothing] = scaled_coefficients(l);
   const NeighbourTable& table = nodes.table;
   const NodeRange own = nodes.stencils.rows(nodes.size());
 #pragma omp parallel for schedule(static)
@@ -121,9 +134,7 @@ SolveReport CoupledSolver<dim>::solve(const NodeGeometry<dim>& nodes,
   const double l = nodes.spacing;
   const double pressure_unit = viscosity_scale_ / l;                     // [Pa s/m]
   const double source_unit = fluid_.density * l * l / viscosity_scale_;  // [s]
-  const double smoothing = l * l /
-                           (fluid_.density * rate_ * l * l / viscosity_scale_ +
-                            stabilisation_ * fluid_.viscosity() / viscosity_scale_);
+  const double smoothing = scaled_coefficients(l).smoothing;
 
   std::vector<Vector<dim>> gradient;
   std::vector<double> wide_laplacian;  // D G p_before [Pa/m^2]

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "micro/mps/node_solver.hpp"
+#include "micro/mps/saddle_point_solver.hpp"
 #include "micro/mps/stage_problem.hpp"
 
 namespace hemoscale::micro {
@@ -45,6 +46,7 @@ class CoupledSolver {
  private:
   void assemble(const NodeGeometry<dim>& nodes);
   void gather_matrix(const NodeGeometry<dim>& nodes);
+  SaddlePointCoefficients scaled_coefficients(double spacing) const;
 
   Fluid fluid_;
   double stabilisation_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "micro/error.hpp"
+#include "micro/particles/lattice_points.hpp"
 #include "micro/particles/weight.hpp"
 #include "micro/vector.hpp"
 
@@ -22,21 +23,7 @@ std::vector<Vector<dim>> lattice_neighbours(double radius) {
         "and at most 20",
         radius));
   }
-  const int reach = static_cast<int>(std::ceil(radius));
-  std::vector<Vector<dim>> found;
-  const int depth = dim == 3 ? reach : 0;
-  for (int z = -depth; z <= depth; ++z) {
-    for (int y = -reach; y <= reach; ++y) {
-      for (int x = -reach; x <= reach; ++x) {
-        Vector<dim> r;
-        r[0] = x;
-        r[1] = y;
-        if constexpr (dim == 3) r[2] = z;
-        if (r.norm() > 0 && r.norm() < radius) found.push_back(r);
-      }
-    }
-  }
-  return found;
+  return lattice_points<dim>(radius);
 }
 
 template <int dim>

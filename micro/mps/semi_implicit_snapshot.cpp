@@ -5,37 +5,13 @@
 #include <string>
 
 #include "micro/error.hpp"
+#include "micro/particles/particle_snapshot.hpp"
 
 namespace hemoscale::micro {
 
 namespace {
 
 const std::string prefix = "semi_implicit.";
-
-template <int dim>
-std::vector<double> flat(const std::vector<Vector<dim>>& vectors) {
-  std::vector<double> values;
-  values.reserve(vectors.size() * static_cast<std::size_t>(dim));
-  for (const Vector<dim>& v : vectors) values.insert(values.end(), v.data(), v.data() + dim);
-  return values;
-}
-
-template <int dim>
-std::vector<Vector<dim>> vectors_of(const std::vector<double>& values) {
-  std::vector<Vector<dim>> vectors(values.size() / static_cast<std::size_t>(dim));
-  for (std::size_t i = 0; i < vectors.size(); ++i) {
-    vectors[i] = Eigen::Map<const Vector<dim>>(values.data() + i * static_cast<std::size_t>(dim));
-  }
-  return vectors;
-}
-
-template <typename To, typename From>
-std::vector<To> cast(const std::vector<From>& values) {
-  std::vector<To> result;
-  result.reserve(values.size());
-  for (const From value : values) result.push_back(static_cast<To>(value));
-  return result;
-}
 
 template <typename Value>
 const std::vector<Value>& find(const std::map<std::string, std::vector<Value>>& arrays,
@@ -59,20 +35,19 @@ Snapshot to_snapshot(const SemiImplicitState<dim>& state) {
   const auto searched = static_cast<std::int64_t>(state.table_positions.size());
   const ParticleLedger& ledger = state.ledger;
   Snapshot snapshot;
-  snapshot.reals = {{prefix + "positions", flat(particles.positions)},
-                    {prefix + "velocities", flat(particles.velocities)},
-                    {prefix + "pressures", particles.pressures},
-                    {prefix + "normals", flat(particles.normals)},
-                    {prefix + "measures", particles.measures},
-                    {prefix + "depths", state.depths},
-                    {prefix + "table_positions", flat(state.table_positions)},
-                    {prefix + "time", {state.time}}};
-  snapshot.integers = {{prefix + "kinds", cast<std::int64_t>(particles.kinds)},
-                       {prefix + "patches", cast<std::int64_t>(particles.patches)},
-                       {prefix + "identities", particles.identities},
-                       {prefix + "counters",
-                        {dim, count, searched, state.step, state.searches, ledger.next_identity,
-                         ledger.initial, ledger.entered, ledger.left}}};
+  store_particles(particles, prefix, snapshot);
+  snapshot.reals[prefix + "depths"] = state.depths;
+  snapshot.reals[prefix + "table_positions"] = flat<dim>(state.table_positions);
+  snapshot.reals[prefix + "time"] = {state.time};
+  snapshot.integers[prefix + "counters"] = {dim,
+                                            count,
+                                            searched,
+                                            state.step,
+                                            state.searches,
+                                            ledger.next_identity,
+                                            ledger.initial,
+                                            ledger.entered,
+                                            ledger.left};
   return snapshot;
 }
 
@@ -92,19 +67,15 @@ SemiImplicitState<dim> from_snapshot(const Snapshot& snapshot) {
     return find(snapshot.reals, name, size);
   };
   SemiImplicitState<dim> state;
-  ParticleSet<dim>& particles = state.particles;
-  particles.positions = vectors_of<dim>(reals("positions", count * width));
-  particles.velocities = vectors_of<dim>(reals("velocities", count * width));
-  particles.pressures = reals("pressures", count);
-  particles.normals = vectors_of<dim>(reals("normals", count * width));
-  particles.measures = reals("measures", count);
+  state.particles = load_particles<dim>(snapshot, prefix);
+  if (state.particles.size() != count) {
+    throw ParameterError(
+        fmt::format("snapshot: {} particles where {} are counted", state.particles.size(), count));
+  }
   state.depths = reals("depths", count);
   state.table_positions =
       vectors_of<dim>(reals("table_positions", static_cast<std::size_t>(counters[2]) * width));
   state.time = reals("time", 1).front();
-  particles.kinds = cast<ParticleKind>(find(snapshot.integers, "kinds", count));
-  particles.patches = cast<std::int32_t>(find(snapshot.integers, "patches", count));
-  particles.identities = find(snapshot.integers, "identities", count);
   state.step = counters[3];
   state.searches = counters[4];
   state.ledger = {.next_identity = counters[5],

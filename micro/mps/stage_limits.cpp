@@ -4,37 +4,14 @@
 #include <numbers>
 
 #include "micro/mps/least_squares.hpp"
+#include "micro/particles/lattice_points.hpp"
 
 namespace hemoscale::micro {
 
-namespace {
-
-/// A lattice of unit spacing around the origin, which is its last point.
-template <int dim>
-std::vector<Vector<dim>> lattice_around_origin(double ratio) {
-  const int reach = static_cast<int>(std::ceil(ratio));
-  const int depth = dim == 3 ? reach : 0;
-  std::vector<Vector<dim>> points;
-  for (int z = -depth; z <= depth; ++z) {
-    for (int y = -reach; y <= reach; ++y) {
-      for (int x = -reach; x <= reach; ++x) {
-        Vector<dim> r;
-        r[0] = x;
-        r[1] = y;
-        if constexpr (dim == 3) r[2] = z;
-        if (r.norm() > 0 && r.norm() < ratio) points.push_back(r);
-      }
-    }
-  }
-  points.push_back(Vector<dim>::Zero());
-  return points;
-}
-
-}  // namespace
-
 template <int dim>
 double largest_least_squares_eigenvalue(double ratio) {
-  const std::vector<Vector<dim>> points = lattice_around_origin<dim>(ratio);
+  std::vector<Vector<dim>> points = lattice_points<dim>(ratio);
+  points.push_back(Vector<dim>::Zero());
   const std::vector<double> weights =
       laplacian_weights<dim>({.radius = ratio, .condition_bound = 1e12}, points);
   // On a lattice the symbol is largest for waves of two spacings or near them; a grid that holds

@@ -6,8 +6,6 @@
 
 namespace hemoscale::micro {
 
-namespace {
-
 template <int dim>
 std::vector<double> flat(const std::vector<Vector<dim>>& vectors) {
   std::vector<double> values;
@@ -24,6 +22,8 @@ std::vector<Vector<dim>> vectors_of(const std::vector<double>& values) {
   }
   return vectors;
 }
+
+namespace {
 
 template <typename Value>
 const std::vector<Value>& find(const std::map<std::string, std::vector<Value>>& arrays,
@@ -94,6 +94,10 @@ ParticleSet<dim> load_particles(const Snapshot& snapshot, const std::string& pre
   return particles;
 }
 
+template std::vector<double> flat<2>(const std::vector<Vector<2>>&);
+template std::vector<double> flat<3>(const std::vector<Vector<3>>&);
+template std::vector<Vector<2>> vectors_of<2>(const std::vector<double>&);
+template std::vector<Vector<3>> vectors_of<3>(const std::vector<double>&);
 template void store_particles<2>(const ParticleSet<2>&, const std::string&, Snapshot&);
 template void store_particles<3>(const ParticleSet<3>&, const std::string&, Snapshot&);
 template ParticleSet<2> load_particles<2>(const Snapshot&, const std::string&);

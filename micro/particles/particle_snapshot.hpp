@@ -1,11 +1,18 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "micro/model.hpp"
 #include "micro/particles/particle_set.hpp"
 
 namespace hemoscale::micro {
+
+/// Components of vectors, one vector after another, and back.
+template <int dim>
+std::vector<double> flat(const std::vector<Vector<dim>>& vectors);
+template <int dim>
+std::vector<Vector<dim>> vectors_of(const std::vector<double>& values);
 
 /// Adds every array of the set to a snapshot, under names that begin with `prefix`.
 template <int dim>

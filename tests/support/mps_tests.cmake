@@ -16,6 +16,11 @@ set_target_properties(benchmark_mps PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_
 target_link_libraries(benchmark_mps PRIVATE hemoscale_micro hemoscale_options fmt::fmt
   OpenMP::OpenMP_CXX)
 
+add_executable(benchmark_stage EXCLUDE_FROM_ALL benchmark/mps/stage_step.cpp)
+set_target_properties(benchmark_stage PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+target_link_libraries(benchmark_stage PRIVATE hemoscale_micro hemoscale_options fmt::fmt
+  OpenMP::OpenMP_CXX)
+
 # Particles, the least-squares method and the plasma model.
 hemoscale_test(NAME particles_property LABEL property LIBRARIES hemoscale_micro SOURCES
   property/particles/neighbour_table_test.cpp)

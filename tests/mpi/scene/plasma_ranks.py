@@ -9,31 +9,12 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
 from command_line import CommandLineTest, figures  # noqa: E402
+from plasma_case import PLASMA  # noqa: E402
 from ranks import mpirun  # noqa: E402
 
-CASE = """
-[case]
-name = "plasma-ranks"
-[scene]
-kind = "micro"
-[fluid]
-plasma_viscosity = "1 mPa s"
-density = "1000 kg/m^3"
-[micro]
-model = "plasma"
-duration = "20 us"
-output_interval = "10 us"
-[micro.plasma]
-flow = "open-channel"
-length = "30 um"
-height = "10 um"
-spacing = "1 um"
-disorder = 0.1
-speed = "10 mm/s"
-time_step = "5 us"
-[output]
-trajectory = false
-"""
+CASE = PLASMA.replace("periodic-channel", "open-channel").replace(
+    'length = "20 um"', 'length = "30 um"\ndisorder = 0.1\ntime_step = "5 us"'
+)
 
 
 @unittest.skipUnless(shutil.which("mpirun") or os.environ.get("REQUIRE_MPI"), "mpirun is not installed")

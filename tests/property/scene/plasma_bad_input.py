@@ -6,37 +6,17 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
 from command_line import CommandLineTest, summary  # noqa: E402
+from plasma_case import PLASMA  # noqa: E402
 
-CASE = """
-[case]
-name = "plasma"
-[scene]
-kind = "micro"
-[fluid]
-plasma_viscosity = "1 mPa s"
-density = "1000 kg/m^3"
-[micro]
-model = "plasma"
-duration = "20 us"
-output_interval = "10 us"
-[micro.plasma]
-flow = "periodic-channel"
-length = "20 um"
-height = "10 um"
-spacing = "1 um"
-speed = "10 mm/s"
-[output]
-trajectory = false
-"""
 
 
 class PlasmaBadInput(CommandLineTest):
-    def refuse(self, *settings, fragments, case=CASE):
+    def refuse(self, *settings, fragments, case=PLASMA):
         arguments = [part for setting in settings for part in ("--set", setting)]
         self.assert_refused(self.hemoscale("check", self.write_case(case), *arguments), 2, *fragments)
 
     def test_good_case_is_good(self):
-        result = self.hemoscale("check", self.write_case(CASE))
+        result = self.hemoscale("check", self.write_case(PLASMA))
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("Reynolds number 0.1", result.stdout)
 
@@ -74,10 +54,10 @@ class PlasmaBadInput(CommandLineTest):
                     fragments=["micro.plasma.disorder", "micro.plasma.kernel_ratio", "2 faults"])
 
     def test_unknown_key(self):
-        self.refuse(case=CASE.replace("[output]", "spaceing = 1\n[output]"), fragments=["spaceing", "micro.plasma.spacing"])
+        self.refuse(case=PLASMA.replace("[output]", "spaceing = 1\n[output]"), fragments=["spaceing", "micro.plasma.spacing"])
 
     def test_coupled_scene(self):
-        self.refuse(case=CASE.replace('kind = "micro"', 'kind = "coupled"').replace('duration = "20 us"', "").replace(
+        self.refuse(case=PLASMA.replace('kind = "micro"', 'kind = "coupled"').replace('duration = "20 us"', "").replace(
             'output_interval = "10 us"', "") + '[macro.channel]\nheight = "10 um"\nmean_velocity = "1 mm/s"\n',
                     fragments=["micro.model: \"plasma\" is a scene of its own"])
 
@@ -89,7 +69,7 @@ class PlasmaBadInput(CommandLineTest):
         self.refuse("micro.plasma.scheme=paper", "micro.plasma.time_step=2 us", fragments=["viscous limit"])
 
     def test_forced_run_tells_how_it_failed_and_keeps_what_it_has(self):
-        case = self.write_case(CASE.replace('"20 us"', '"1 ms"'))
+        case = self.write_case(PLASMA.replace('"20 us"', '"1 ms"'))
         results = self.folder / "results"
         settings = [part for setting in (
             "micro.plasma.viscosity=explicit", "micro.plasma.coupling=incremental", "micro.plasma.disorder=0.1",
