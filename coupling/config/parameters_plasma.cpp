@@ -33,7 +33,7 @@ Parameter choice(const std::string& key, const std::vector<std::string>& choices
 std::vector<Parameter> flow_parameters() {
   const std::string only = "needed by the flows that have one";
   Parameter flow = choice("flow", plasma_flows(), "",
-                          "What flows where; docs/cases/plasma.md draws and explains each.");
+                          "What flows where; cases/plasma-verification holds an example of each.");
   flow.default_value = "open-channel";
   Parameter length = quantity("length", "m", above(0), "",
                               "Length of the domain along the flow; edge of boxes and patches.");
