@@ -85,7 +85,6 @@ class StageStepper {
   void solve_quasi_steady(double time_step);
   void move_nodes_apart();
   void exchange_at_openings();
-  void check_result() const;
 
   std::vector<Vector<dim>> explicit_part(const std::vector<Vector<dim>>& velocities,
                                          const std::vector<Vector<dim>>& node_velocities) const;

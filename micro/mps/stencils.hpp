@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "micro/mps/node_range.hpp"
-#include "micro/mps/operator_kind.hpp"
 #include "micro/particles/neighbour_table.hpp"
 #include "micro/vector.hpp"
 
