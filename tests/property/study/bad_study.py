@@ -7,23 +7,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
 from command_line import CommandLineTest  # noqa: E402
-
-CASE = """[case]
-name = "small"
-[scene]
-kind = "micro"
-[fluid]
-hematocrit = 0.2
-[micro]
-cells = 2
-nodes = 16
-shear_rate = "100 1/s"
-duration = "1 ms"
-output_interval = "1 ms"
-contact.stiffness = "4 Pa"
-contact.rest_distance = "0.7 um"
-contact.cutoff = "1 um"
-"""
+from small_case import SMALL  # noqa: E402
 
 STUDY = """[study]
 name = "bad"
@@ -37,7 +21,7 @@ values = [2, 3]
 
 class BadStudy(CommandLineTest):
     def refuse(self, study, code, *fragments, arguments=(), ran=False):
-        case = self.write_case(CASE)
+        case = self.write_case(SMALL)
         (case / "study.toml").write_text(study, encoding="utf-8")
         self.assert_refused(self.hemoscale("chart", case, *arguments), code, *fragments)
         runs = case / "results" / "bad" / "runs"
@@ -54,7 +38,7 @@ class BadStudy(CommandLineTest):
         self.refuse(study, 2, "study.toml:3", "study.toml:8:14", "study.toml:8:17", "3 faults")
 
     def test_fault_of_the_case_itself(self):
-        case = self.write_case(CASE.replace("0.2", "1.2"))
+        case = self.write_case(SMALL.replace("0.2", "1.2"))
         (case / "study.toml").write_text(STUDY, encoding="utf-8")
         self.assert_refused(self.hemoscale("chart", case), 2, "case.toml:6", "fluid.hematocrit", "1 fault")
 
@@ -88,13 +72,13 @@ class BadStudy(CommandLineTest):
     def test_run_that_ends_badly_ends_the_study_with_its_reason(self):
         # So many cells cannot be packed at random, which shows when the run begins, not before.
         study = STUDY.replace("[2, 3]", "[2, 3]\n[[sweep]]\nkey = \"fluid.hematocrit\"\nvalues = [0.749]")
-        case = self.write_case(CASE)
+        case = self.write_case(SMALL)
         (case / "study.toml").write_text(study, encoding="utf-8")
         result = self.hemoscale("chart", case)
         self.assert_refused(result, 3, "ended with exit code 2", "log", "finished runs are kept")
 
     def test_results_that_cannot_be_written(self):
-        case = self.write_case(CASE)
+        case = self.write_case(SMALL)
         (case / "study.toml").write_text(STUDY, encoding="utf-8")
         (case / "results").write_text("in the way")
         self.assert_refused(self.hemoscale("chart", case), 3, "results")
@@ -108,7 +92,7 @@ class BadStudy(CommandLineTest):
         self.assert_refused(result, 2, "--set fluid.hematocrit", "variant")
 
     def test_malformed_override(self):
-        case = self.write_case(CASE)
+        case = self.write_case(SMALL)
         self.assert_refused(self.hemoscale("run", case, "--set", "micro.cells"), 2, "KEY=VALUE")
         self.assert_refused(self.hemoscale("run", case, "--set"), 1, "--set")
 

@@ -10,25 +10,9 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
 from command_line import PROGRAM, CommandLineTest  # noqa: E402
+from small_case import SMALL  # noqa: E402
 
-CASE = """[case]
-name = "small"
-[scene]
-kind = "micro"
-[fluid]
-hematocrit = 0.2
-[micro]
-cells = 4
-nodes = 24
-shear_rate = "100 1/s"
-duration = "40 ms"
-output_interval = "10 ms"
-contact.stiffness = "4 Pa"
-contact.rest_distance = "0.7 um"
-contact.cutoff = "1 um"
-[output]
-trajectory = false
-"""
+CASE = SMALL.replace("16 ms", "40 ms").replace("8 ms", "10 ms")
 
 # The last run would take minutes; it is never finished.
 STUDY = """[study]

@@ -9,26 +9,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
 from command_line import CommandLineTest, figures, summary  # noqa: E402
-
-CASE = """
-[case]
-name = "small"
-[scene]
-kind = "micro"
-[fluid]
-hematocrit = 0.2
-[micro]
-cells = 4
-nodes = 24
-shear_rate = "100 1/s"
-duration = "16 ms"
-output_interval = "8 ms"
-contact.stiffness = "4 Pa"
-contact.rest_distance = "0.7 um"
-contact.cutoff = "1 um"
-[output]
-trajectory = false
-"""
+from small_case import SMALL  # noqa: E402
 
 STUDY = """
 [study]
@@ -67,7 +48,7 @@ def rows(path):
 class Chart(CommandLineTest):
     def setUp(self):
         super().setUp()
-        self.case = self.write_case(CASE)
+        self.case = self.write_case(SMALL)
 
     def chart(self, study, *arguments):
         """Runs a study; without matplotlib it must say so, and the tables must be there all the same."""
