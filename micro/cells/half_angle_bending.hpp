@@ -33,9 +33,9 @@ inline double energy(const HalfAngleBending& law, const RingMesh& mesh, RingGeom
   return 2 * law.modulus * sum;
 }
 
-/// Adds the pulls of the segments: dE/dtheta = (k_b / 2) t (1 + t^2).
-[[gnu::always_inline]] inline void add_loads(const HalfAngleBending& law, const RingMesh& mesh,
-                                             RingGeometry& ring) {
+/// Writes M_i = dE/dtheta_i = (k_b / 2) t (1 + t^2) to ring.moment [N], closed.
+[[gnu::always_inline]] inline void set_moments(const HalfAngleBending& law, const RingMesh& mesh,
+                                               RingGeometry& ring) {
   double* const moment = ring.moment.data();
   const double* const half_tangent = ring.half_tangent.data();
   const double* const natural = mesh.natural_half_tangent.data();
@@ -47,7 +47,25 @@ inline double energy(const HalfAngleBending& law, const RingMesh& mesh, RingGeom
     moment[i] = half_stiffness / node_length[i] * t * (1 + t * t);
   }
   moment[n] = moment[0];
+}
+
+/// Adds the pulls of the segments.
+[[gnu::always_inline]] inline void add_loads(const HalfAngleBending& law, const RingMesh& mesh,
+                                             RingGeometry& ring) {
+  set_moments(law, mesh, ring);
   add_moment_pulls(ring);
+}
+
+/// Adds the second derivatives: dM/dtheta = (k_b / 4) (1 + t^2) (1 + 3 t^2). Bending has no
+/// tension: `Compression` does not touch it.
+inline void add_stiffness(const HalfAngleBending& law, const RingMesh& mesh, RingGeometry& ring,
+                          Compression, RingStiffness& stiffness) {
+  set_moments(law, mesh, ring);
+  const auto slope = [&](std::size_t i) {
+    const double t = half_tangent_of_difference(ring.half_tangent[i], mesh.natural_half_tangent[i]);
+    return law.modulus / mesh.node_length[i] * (1 + t * t) * (1 + 3 * t * t);
+  };
+  add_moment_stiffness(ring, slope, stiffness);
 }
 
 }  // namespace hemoscale::micro

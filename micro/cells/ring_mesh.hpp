@@ -20,9 +20,11 @@ struct RingMesh {
 };
 
 /// The ring whose reference shape is the given polygon.
+/// @param spontaneous_curvature  [1/m] c0 of NaturalShape::curvature: theta0 = c0 times the mean
+///                               length of the two segments at a node; 0 for the other shapes
 /// @throws ParameterError unless there are at least three nodes, counter-clockwise, no two
-/// neighbours
-///         in the same place
-RingMesh make_ring_mesh(const std::vector<Vector<2>>& polygon, NaturalShape natural_shape);
+///         neighbours in the same place; for a curvature that turns by pi or more at a node
+RingMesh make_ring_mesh(const std::vector<Vector<2>>& polygon, NaturalShape natural_shape,
+                        double spontaneous_curvature = 0);
 
 }  // namespace hemoscale::micro

@@ -2,6 +2,7 @@
 
 #include "micro/cells/ring_geometry.hpp"
 #include "micro/cells/ring_mesh.hpp"
+#include "micro/cells/ring_stiffness.hpp"
 
 namespace hemoscale::micro {
 
@@ -10,9 +11,8 @@ namespace hemoscale::micro {
 ///
 ///   E = (E_l / 2) sum_i l0_i ((l_i - l0_i) / l0_i)^2        [N]
 ///
-/// Converges to the continuum (E_l / 2) int strain^2 ds with second order in the node spacing. The
-/// form (k_l / 2) sum ((l - l0)/l0)^2 of that line of papers is the same with k_l = E_l l0, which
-/// makes its constant depend on the number of nodes. Sum of forces and torques zero; invalid for
+/// Converges to the continuum (E_l / 2) int strain^2 ds with second order in the node spacing; the
+/// modulus does not depend on the number of nodes. Sum of forces and torques zero; invalid for
 /// coincident neighbours.
 struct Stretch {
   double modulus = 0;  // [N/m] E_l: line tension per strain
@@ -47,6 +47,21 @@ inline double energy(const Stretch& law, const RingMesh& mesh, const RingGeometr
   }
   pull_x[0] = pull_x[n];
   pull_y[0] = pull_y[n];
+}
+
+/// Tension of segment j [N/m], positive where it is pulled.
+inline double tension(const Stretch& law, const RingMesh& mesh, const RingGeometry& ring,
+                      std::size_t j) {
+  return law.modulus * (1 / (ring.inverse_length[j + 1] * mesh.rest_length[j]) - 1);
+}
+
+/// Adds the second derivatives.
+inline void add_stiffness(const Stretch& law, const RingMesh& mesh, const RingGeometry& ring,
+                          Compression compression, RingStiffness& stiffness) {
+  for (std::size_t j = 0; j < ring.nodes; ++j) {
+    add_tension_stiffness(ring, j, tension(law, mesh, ring, j), law.modulus / mesh.rest_length[j],
+                          compression, stiffness);
+  }
 }
 
 }  // namespace hemoscale::micro

@@ -66,9 +66,9 @@ inline double energy(const TurningAngleBending& law, const RingMesh& mesh, RingG
   return 0.5 * law.modulus * sum;
 }
 
-/// Adds the pulls of the segments.
-[[gnu::always_inline]] inline void add_loads(const TurningAngleBending& law, const RingMesh& mesh,
-                                             RingGeometry& ring) {
+/// Writes M_i = dE/dtheta_i to ring.moment [N], closed.
+[[gnu::always_inline]] inline void set_moments(const TurningAngleBending& law, const RingMesh& mesh,
+                                               RingGeometry& ring) {
   double* const moment = ring.moment.data();
   turning_angles(ring, moment);
   const double* const natural = mesh.natural_angle.data();
@@ -79,7 +79,22 @@ inline double energy(const TurningAngleBending& law, const RingMesh& mesh, RingG
     moment[i] = modulus * (moment[i] - natural[i]) / node_length[i];
   }
   moment[n] = moment[0];
+}
+
+/// Adds the pulls of the segments.
+[[gnu::always_inline]] inline void add_loads(const TurningAngleBending& law, const RingMesh& mesh,
+                                             RingGeometry& ring) {
+  set_moments(law, mesh, ring);
   add_moment_pulls(ring);
+}
+
+/// Adds the second derivatives: dM/dtheta = kappa / l0. Bending has no tension: `Compression` does
+/// not touch it.
+inline void add_stiffness(const TurningAngleBending& law, const RingMesh& mesh, RingGeometry& ring,
+                          Compression, RingStiffness& stiffness) {
+  set_moments(law, mesh, ring);
+  add_moment_stiffness(
+      ring, [&](std::size_t i) { return law.modulus / mesh.node_length[i]; }, stiffness);
 }
 
 }  // namespace hemoscale::micro
