@@ -1,5 +1,6 @@
 #include "micro/linear/banded_solver.hpp"
 
+#include <cblas.h>
 #include <fmt/format.h>
 #include <lapacke.h>
 
@@ -92,6 +93,26 @@ void BandedSolver::factor(const SparseMatrix& scaled, bool) {
         found - ordering_.place.begin()));
   }
   require_accepted(fault, symmetric_ ? "dpbtrf" : "dgbtrf");
+  if (!symmetric_) measure_fill();
+}
+
+/// The band has room for any pivots; most of it stays empty where few rows are exchanged, and back
+/// substitution is as fast as its columns are read from memory.
+void BandedSolver::measure_fill() {
+  const std::size_t n = pivots_.size();
+  const auto [lower, upper] = ordering_.bandwidth;
+  const std::size_t most = lower + upper;
+  heights_.resize(n);
+  depths_.resize(n);
+  for (std::size_t j = 0; j < n; ++j) {
+    const double* const column = band_.data() + j * leading_;
+    std::size_t height = std::min(most, j);
+    while (height > 0 && column[most - height] == 0) --height;
+    std::size_t depth = std::min(lower, n - 1 - j);
+    while (depth > 0 && column[most + depth] == 0) --depth;
+    heights_[j] = static_cast<std::int32_t>(height);
+    depths_[j] = static_cast<std::int32_t>(depth);
+  }
 }
 
 void BandedSolver::back_substitute(std::span<double> v) const {
@@ -99,18 +120,27 @@ void BandedSolver::back_substitute(std::span<double> v) const {
   for (std::size_t i = 0; i < v.size(); ++i) {
     ordered_[static_cast<std::size_t>(ordering_.place[i])] = v[i];
   }
-  const auto n = static_cast<lapack_int>(v.size());
-  const auto lower = static_cast<lapack_int>(ordering_.bandwidth.lower);
-  const auto upper = static_cast<lapack_int>(ordering_.bandwidth.upper);
-  const auto leading = static_cast<lapack_int>(leading_);
   if (symmetric_) {
+    const auto n = static_cast<lapack_int>(v.size());
+    const auto lower = static_cast<lapack_int>(ordering_.bandwidth.lower);
+    const auto leading = static_cast<lapack_int>(leading_);
     require_accepted(LAPACKE_dpbtrs_work(LAPACK_COL_MAJOR, 'L', n, lower, 1, band_.data(), leading,
                                          ordered_.data(), n),
                      "dpbtrs");
   } else {
-    require_accepted(LAPACKE_dgbtrs_work(LAPACK_COL_MAJOR, 'N', n, lower, upper, 1, band_.data(),
-                                         leading, pivots_.data(), ordered_.data(), n),
-                     "dgbtrs");
+    // As dgbtrs does, but over the filled part of each column alone.
+    const std::size_t diagonal = ordering_.bandwidth.lower + ordering_.bandwidth.upper;
+    double* const x = ordered_.data();
+    for (std::size_t j = 0; j < v.size(); ++j) {
+      std::swap(x[j], x[static_cast<std::size_t>(pivots_[j]) - 1]);
+      cblas_daxpy(depths_[j], -x[j], band_.data() + j * leading_ + diagonal + 1, 1, x + j + 1, 1);
+    }
+    for (std::size_t j = v.size(); j-- > 0;) {
+      const auto height = static_cast<std::size_t>(heights_[j]);
+      const double* const pivot = band_.data() + j * leading_ + diagonal;
+      x[j] /= *pivot;
+      cblas_daxpy(heights_[j], -x[j], pivot - height, 1, x + j - height, 1);
+    }
   }
   for (std::size_t i = 0; i < v.size(); ++i) {
     v[i] = sign_ * ordered_[static_cast<std::size_t>(ordering_.place[i])];

@@ -35,6 +35,7 @@ class BandedSolver final : public DirectSolver {
   bool is_symmetric() const override { return symmetric_; }
 
   void fill(const SparseMatrix& scaled);
+  void measure_fill();
   double& band_entry(std::size_t row, std::size_t column);
 
   Ordering ordering_;
@@ -43,6 +44,8 @@ class BandedSolver final : public DirectSolver {
   std::size_t leading_ = 0;   // [-] values stored a column
   std::vector<double> band_;  // column by column, as LAPACK wants it
   std::vector<std::int32_t> pivots_;
+  // What the factorisation has filled of each column of LU, above and below the diagonal.
+  std::vector<std::int32_t> heights_, depths_;
   mutable std::vector<double> ordered_;  // scratch: the vector in the order of the band
 };
 
