@@ -1,6 +1,7 @@
 #include "micro/mps/coupled_solver.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "micro/mps/block_pattern.hpp"
 
@@ -136,10 +137,12 @@ SolveReport CoupledSolver<dim>::solve(const NodeGeometry<dim>& nodes,
   const double source_unit = fluid_.density * l * l / viscosity_scale_;  // [s]
   const double smoothing = scaled_coefficients(l).smoothing;
 
-  std::vector<Vector<dim>> gradient;
-  std::vector<double> wide_laplacian;  // D G p_before [Pa/m^2]
-  apply_gradient(nodes.stencils, nodes.table, pressures, gradient);
-  apply_divergence(nodes.stencils, nodes.table, gradient, wide_laplacian);
+  std::vector<double> wide_laplacian(count, 0.0);  // D G p_before [Pa/m^2]
+  if (std::any_of(pressures.begin(), pressures.end(), [](double p) { return p != 0; })) {
+    std::vector<Vector<dim>> gradient;
+    apply_gradient(nodes.stencils, nodes.table, pressures, gradient);
+    apply_divergence(nodes.stencils, nodes.table, gradient, wide_laplacian);
+  }
 
   constexpr auto block = static_cast<std::size_t>(dim + 1);
   std::vector<double> right(block * count);
@@ -152,6 +155,11 @@ SolveReport CoupledSolver<dim>::solve(const NodeGeometry<dim>& nodes,
       const auto axis = static_cast<Eigen::Index>(c);
       if (has_momentum(kind)) row[c] = source_unit * problem.source[i][axis];
       if (has_given_velocity(kind)) row[c] = problem.velocity[i][axis];
+    }
+    if (kind == ParticleKind::outlet) {
+      if (!problem.outflow_rate.empty()) row[0] = l * problem.outflow_rate[i];
+      const Eigen::Matrix<double, dim - 1, dim> across = tangents<dim>(nodes.normals[i]);
+      for (int t = 0; t < dim - 1; ++t) row[t + 1] = across.row(t).dot(problem.velocity[i]);
     }
     if (has_given_pressure(kind)) {
       row[dim] = problem.pressure[i] / pressure_unit;

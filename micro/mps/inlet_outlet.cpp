@@ -76,6 +76,14 @@ bool approach(const Outlet<dim>& outlet, ParticleSet<dim>& particles) {
     const bool is_beyond = outlet.normal.dot(particles.positions[i]) > outlet.edge;
     const ParticleKind kind = particles.kinds[i];
     if (is_beyond && (kind == ParticleKind::fluid || kind == ParticleKind::surface)) {
+      if (particles.patches[i] >= 0) {
+        const Vector<dim>& x = particles.positions[i];
+        throw NumericalError(fmt::format(
+            "particle {} of a membrane (patch {}) has come to {:.6g} m along the outlet, whose "
+            "zone "
+            "begins at {:.6g} m; end the run before, or lengthen the channel",
+            particles.identities[i], particles.patches[i], outlet.normal.dot(x), outlet.edge));
+      }
       become(particles, i, ParticleKind::outlet, outlet.patch, outlet.normal);
       has_changed = true;
     } else if (!is_beyond && kind == ParticleKind::outlet && particles.patches[i] == outlet.patch) {

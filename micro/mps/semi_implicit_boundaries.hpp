@@ -9,6 +9,12 @@ inline bool is_free(ParticleKind kind) {
   return kind == ParticleKind::fluid || kind == ParticleKind::surface;
 }
 
+/// Whether a particle of the fluid belongs to a membrane: a patch of the kind `fluid`.
+template <int dim>
+bool is_tied(const ParticleSet<dim>& particles, std::size_t i) {
+  return is_free(particles.kinds[i]) && particles.patches[i] >= 0;
+}
+
 /// Depth of every wall and dummy particle behind the wall plane, which lies half a spacing before
 /// the wall particles: half a spacing more than the distance from the nearest of them; zero for
 /// other particles.

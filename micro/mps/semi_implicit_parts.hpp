@@ -31,6 +31,9 @@ struct SemiImplicitSetting {
   PeriodicBox<dim> box;
   std::vector<Patch<dim>> patches;
   std::function<Vector<dim>(double t)> acceleration;
+  std::function<void(const ParticleSet<dim>&, double t, std::vector<Vector<dim>>&)>
+      local_acceleration;
+  std::function<std::vector<Limit>(double time_step)> local_limits;
   Openings<dim> openings;
   Vector<dim> lower,
       upper;  // [m] beyond them, along axes that are not periodic, a particle is lost

@@ -27,7 +27,8 @@ void add_viscous_rates(const SemiImplicitSetting<dim>& setting, const SemiImplic
   }
 }
 
-/// Body force, and the old pressure where the coupling wants it [m/s^2].
+/// Body force, forces on single particles, and the old pressure where the coupling wants it
+/// [m/s^2].
 template <int dim>
 void driving_rates(const SemiImplicitSetting<dim>& setting, const SemiImplicitState<dim>& state,
                    SemiImplicitWork<dim>& work, double dt, std::vector<Vector<dim>>& rates) {
@@ -35,11 +36,14 @@ void driving_rates(const SemiImplicitSetting<dim>& setting, const SemiImplicitSt
                                                  : Vector<dim>(Vector<dim>::Zero());
   if (setting.options.coupling == ParticleCoupling::chorin) {
     rates.assign(state.particles.size(), force);
-    return;
+  } else {
+    apply_pressure_gradient(setting.options.gradient_form, work.pressure_gradient, work.table,
+                            state.particles.pressures, work.lowest, rates);
+    for (Vector<dim>& rate : rates) rate = force - rate / setting.fluid.density;
   }
-  apply_pressure_gradient(setting.options.gradient_form, work.pressure_gradient, work.table,
-                          state.particles.pressures, work.lowest, rates);
-  for (Vector<dim>& rate : rates) rate = force - rate / setting.fluid.density;
+  if (setting.local_acceleration) {
+    setting.local_acceleration(state.particles, state.time + dt, rates);
+  }
 }
 
 /// (1 - dt nu lap) u = u + dt rates, divided by the factors of the Laplacian and dt nu.

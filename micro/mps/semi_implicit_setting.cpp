@@ -87,6 +87,8 @@ SemiImplicitSetting<dim> make_setting(const FlowDomain<dim>& domain, const Fluid
   setting.box = domain.box;
   setting.patches = domain.patches;
   setting.acceleration = domain.acceleration;
+  setting.local_acceleration = domain.local_acceleration;
+  setting.local_limits = domain.local_limits;
   setting.openings = find_openings(domain);
   find_bounds(domain, setting);
   setting.tolerance = tolerance;

@@ -14,6 +14,9 @@ void shift_particles(const SemiImplicitSetting<dim>& setting, SemiImplicitState<
   measure_pairs(particles.positions, setting.box, work.table, work.pairs);
   shift_displacements(setting.kernel, options.shift, options.shift_coefficient, work.pairs,
                       work.table, particles.kinds, work.vectors);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (is_tied(particles, i)) work.vectors[i].setZero();
+  }
   gradient_weights(setting.kernel, work.pairs, work.table, work.gradient);
   correct_gradient(work.pairs, work.table, options.condition_bound, {}, work.gradient);
   const std::size_t count = particles.size();

@@ -73,8 +73,12 @@ SemiImplicitStepper<dim>::SemiImplicitStepper(const FlowDomain<dim>& domain, con
 
 template <int dim>
 std::vector<Limit> SemiImplicitStepper<dim>::limits(double dt) const {
-  return semi_implicit_limits<dim>(setting_.options, setting_.fluid, setting_.spacing, dt,
-                                   deviation_);
+  std::vector<Limit> limits =
+      semi_implicit_limits<dim>(setting_.options, setting_.fluid, setting_.spacing, dt, deviation_);
+  if (setting_.local_limits) {
+    for (const Limit& limit : setting_.local_limits(dt)) limits.push_back(limit);
+  }
+  return limits;
 }
 
 template <int dim>
@@ -92,10 +96,15 @@ void SemiImplicitStepper<dim>::step(double dt) {
     advance(dt);
   } catch (const NumericalError& error) {
     const std::string message = completed(error.what(), state_.step, state_.time, limits_);
-    std::swap(state_, last_good_);
-    resume();
+    revert();
     throw NumericalError(message);
   }
+}
+
+template <int dim>
+void SemiImplicitStepper<dim>::revert() {
+  std::swap(state_, last_good_);
+  resume();
 }
 
 template <int dim>

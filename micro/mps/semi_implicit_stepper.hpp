@@ -31,6 +31,10 @@ class SemiImplicitStepper {
   /// @throws NumericalError naming step, time, particle, value, limit and remedy
   void step(double dt);
 
+  /// Back to the state before the last step, for a caller that does not accept what it finds; once
+  /// for each step.
+  void revert();
+
   const ParticleSet<dim>& particles() const { return state_.particles; }
   double time() const { return state_.time; }
   std::int64_t steps() const { return state_.step; }

@@ -31,8 +31,12 @@ template <int dim>
 struct StageProblem {
   std::vector<Vector<dim>> source;    // [m/s^2] in the fluid; at walls and inlets: body force minus
                                       // acceleration, which fix the normal derivative of p
-  std::vector<Vector<dim>> velocity;  // [m/s] imposed on walls and inlets
+  std::vector<Vector<dim>> velocity;  // [m/s] imposed on walls and inlets; on outlets the part
+                                      // across the normal
   std::vector<double> pressure;       // [Pa] imposed on outlets and free surfaces
+
+  /// Normal derivative of the normal velocity on outlets [1/s]; empty: zero.
+  std::vector<double> outflow_rate = {};
 };
 
 inline bool has_momentum(ParticleKind kind) {

@@ -67,7 +67,11 @@ void StageStepper<dim>::step(double time_step) {
     time_ = time_before;
     nodes_are_current_ = false;
     std::string causes;
-    for (const Limit& limit : stage_limits<dim>(options_, fluid_, domain_.spacing, time_step, {})) {
+    std::vector<Limit> limits = stage_limits<dim>(options_, fluid_, domain_.spacing, time_step, {});
+    if (domain_.local_limits) {
+      for (const Limit& limit : domain_.local_limits(time_step)) limits.push_back(limit);
+    }
+    for (const Limit& limit : limits) {
       if (limit.exceeded()) causes += "; " + describe(limit);
     }
     throw NumericalError(fmt::format("step {}, time {:.6g} s: {}{}", steps_ + 1, time_ + time_step,
@@ -113,6 +117,22 @@ void StageStepper<dim>::advance(double time_step) {
 }
 
 template <int dim>
+void StageStepper<dim>::settle() {
+  if (options_.inertia != Inertia::quasi_steady || options_.motion != NodeMotion::eulerian) {
+    throw ParameterError(
+        "only quasi-steady flow on resting nodes can settle while no time passes; choose these, or "
+        "take steps");
+  }
+  if (domain_.sliding_rate != 0) {
+    throw ParameterError("flow in a sheared box cannot settle while no time passes; take a step");
+  }
+  report_.solve = {};
+  report_.stages = 0;
+  solve_quasi_steady(0);
+  report_.largest_speed = check_speeds(domain_.particles, domain_.spacing, 0);
+}
+
+template <int dim>
 void StageStepper<dim>::solve_unsteady(double time_step) {
   ParticleSet<dim>& particles = domain_.particles;
   const std::vector<Vector<dim>> start = particles.positions;
@@ -139,6 +159,7 @@ void StageStepper<dim>::solve_unsteady(double time_step) {
       problem.source[i] += n0[i];
     }
   }
+  add_local_acceleration(first_time, problem.source);
   remember(solve_stage(problem, particles.velocities, particles.pressures));
   if (is_euler) return;
 
@@ -164,6 +185,7 @@ void StageStepper<dim>::solve_unsteady(double time_step) {
       problem.source[i] += n1[i];
     }
   }
+  add_local_acceleration(last_time, problem.source);
   remember(solve_stage(problem, particles.velocities, particles.pressures));
 }
 
@@ -184,6 +206,7 @@ void StageStepper<dim>::solve_quasi_steady(double time_step) {
     for (std::size_t i = 0; i < half.source.size(); ++i) {
       if (has_momentum(particles.kinds[i])) half.source[i] = force;
     }
+    add_local_acceleration(time_ + time_step / 2, half.source);
     remember(solve_stage(half, particles.velocities, particles.pressures));
     const auto w1 = node_velocities(particles.velocities, time_step);
     carry_pressure(moved<dim>(start, time_step, w1));
@@ -197,6 +220,7 @@ void StageStepper<dim>::solve_quasi_steady(double time_step) {
   for (std::size_t i = 0; i < problem.source.size(); ++i) {
     if (has_momentum(particles.kinds[i])) problem.source[i] = force;
   }
+  add_local_acceleration(end, problem.source);
   // The stabilisation takes the pressure of the solution before: repeated until it is its own.
   constexpr int largest_count = 30;
   constexpr double wanted = 1e-12;
@@ -278,6 +302,23 @@ StageProblem<dim> StageStepper<dim>::boundary_values(double time) const {
     }
   }
   return problem;
+}
+
+template <int dim>
+void StageStepper<dim>::add_local_acceleration(double time,
+                                               std::vector<Vector<dim>>& source) const {
+  if (!domain_.local_acceleration) return;
+  if (options_.motion == NodeMotion::eulerian && domain_.sliding_rate == 0) {
+    domain_.local_acceleration(domain_.particles, time, source);
+    return;
+  }
+  // Nodes on their way, and velocities without the shear, are an affair of the stepper alone.
+  ParticleSet<dim> particles = domain_.particles;
+  particles.positions = nodes_.positions;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    particles.velocities[i] += sliding_velocity(particles.positions[i]);
+  }
+  domain_.local_acceleration(particles, time, source);
 }
 
 template <int dim>

@@ -57,6 +57,12 @@ class StageStepper {
   ///         that before the step
   void step(double time_step);
 
+  /// Quasi-steady flow on resting nodes: the flow at the present time under the present forces; no
+  /// time passes.
+  /// @throws ParameterError for unsteady flow or moving nodes
+  /// @throws NumericalError as above
+  void settle();
+
   const FlowDomain<dim>& domain() const { return domain_; }
   const ParticleSet<dim>& particles() const { return domain_.particles; }
   const Fluid& fluid() const { return fluid_; }
@@ -91,6 +97,7 @@ class StageStepper {
   std::vector<Vector<dim>> node_velocities(const std::vector<Vector<dim>>& velocities,
                                            double time_step) const;
   StageProblem<dim> boundary_values(double time) const;
+  void add_local_acceleration(double time, std::vector<Vector<dim>>& source) const;
   Vector<dim> boundary_acceleration(std::size_t node, double time) const;
   Vector<dim> sliding_velocity(const Vector<dim>& x) const;
   void remember(const SolveReport& report);
