@@ -39,6 +39,11 @@ void check_laws(const EnsembleParameters& p, Faults& faults) {
                   "without it the nodes of a membrane drift apart");
   faults.not_negative(p.membrane.bending_modulus, "bending modulus", "J", "choose 0 for none");
   faults.not_negative(p.membrane.area_modulus, "area modulus", "Pa", "choose 0 for none");
+  faults.require(p.membrane.stretch_law == StretchLaw::linear &&
+                     p.membrane.area_law == AreaLaw::penalty &&
+                     p.membrane.natural_shape != NaturalShape::curvature,
+                 "the ensemble knows linear stretching, the penalty of area and the natural shapes "
+                 "flat and outline; choose those");
   faults.positive(p.drag.coefficient, "drag coefficient", "", "choose such as 12 for a cell");
   faults.not_negative(p.contact.stiffness, "contact stiffness", "Pa", "choose 0 for no contact");
   faults.positive(p.contact.rest_distance, "contact rest distance", "m",

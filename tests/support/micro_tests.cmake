@@ -1,7 +1,20 @@
 hemoscale_test(NAME micro_unit LABEL unit LIBRARIES hemoscale_micro SOURCES
   unit/micro/philox_test.cpp
   unit/micro/outline_test.cpp
+  unit/micro/outline_checks_test.cpp
+  unit/micro/rest_shape_test.cpp
+  unit/micro/ring_membrane_test.cpp
   unit/micro/ring_mesh_test.cpp
+  unit/micro/angle_period_test.cpp
+  unit/micro/capillary_number_test.cpp
+  unit/micro/curve_distance_test.cpp
+  unit/micro/ring_concavity_test.cpp
+  unit/micro/ring_curve_test.cpp
+  unit/micro/ring_modes_test.cpp
+  unit/micro/ring_motion_test.cpp
+  unit/micro/ring_shape_test.cpp
+  unit/micro/ring_strain_test.cpp
+  unit/micro/steady_state_test.cpp
   unit/micro/potentials_test.cpp
   unit/micro/velocity_profile_test.cpp
   unit/micro/lateral_profile_test.cpp
@@ -12,11 +25,15 @@ hemoscale_test(NAME micro_unit LABEL unit LIBRARIES hemoscale_micro SOURCES
   unit/micro/single_communicator_test.cpp)
 hemoscale_test(NAME micro_property LABEL property LIBRARIES hemoscale_micro SOURCES
   property/micro/membrane_laws_test.cpp
+  property/micro/membrane_stiffness_test.cpp
   property/micro/neighbour_list_test.cpp
   property/micro/packing_test.cpp
   property/micro/stress_test.cpp)
 hemoscale_test(NAME micro_verification LABEL verification LIBRARIES hemoscale_micro SOURCES
+  verification/micro/ring_shape_test.cpp
+  verification/micro/membrane_continuum_test.cpp
   verification/micro/membrane_convergence_test.cpp
+  verification/micro/rest_shape_reference_test.cpp
   verification/micro/series_estimate_test.cpp
   verification/micro/ensemble_physics_test.cpp
   verification/micro/euler_order_test.cpp)

@@ -21,3 +21,6 @@ hemoscale_program_test(property plasma_bad_input property/scene/plasma_bad_input
 hemoscale_program_test(mpi plasma_ranks mpi/scene/plasma_ranks.py 400)
 hemoscale_program_test(verification plasma_cases verification/scene/plasma_cases.py 200)
 set_tests_properties(mpi.plasma_ranks PROPERTIES RUN_SERIAL ON)
+hemoscale_program_test(property cell_bad_input property/scene/cell_bad_input.py 200)
+hemoscale_program_test(restart cells_restart restart/scene/cells_restart.py 200)
+hemoscale_program_test(verification cell_cases verification/scene/cell_cases.py 200)

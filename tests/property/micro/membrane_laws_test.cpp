@@ -5,6 +5,7 @@
 
 #include "micro/cells/area.hpp"
 #include "micro/cells/half_angle_bending.hpp"
+#include "micro/cells/line_element_stretch.hpp"
 #include "micro/cells/stretch.hpp"
 #include "micro/cells/turning_angle_bending.hpp"
 #include "tests/support/micro/rings.hpp"
@@ -23,7 +24,8 @@ class MembraneLaw : public testing::Test {
   Law law{3.0};
 };
 
-using Laws = testing::Types<Stretch, TurningAngleBending, HalfAngleBending, AreaPenalty>;
+using Laws =
+    testing::Types<Stretch, LineElementStretch, TurningAngleBending, HalfAngleBending, AreaPenalty>;
 TYPED_TEST_SUITE(MembraneLaw, Laws);
 
 TEST(RandomPolygon, turns_to_both_sides) {

@@ -30,6 +30,20 @@ TEST(RingMesh, flat_natural_shape_has_no_angles) {
   }
 }
 
+TEST(RingMesh, spontaneous_curvature_turns_in_proportion_to_length) {
+  const test::Polygon polygon = test::random_polygon(30, 1);
+  const double curvature = -2e5;
+  const RingMesh mesh = make_ring_mesh(polygon, NaturalShape::curvature, curvature);
+  for (std::size_t i = 0; i < 30; ++i) {
+    EXPECT_DOUBLE_EQ(mesh.natural_angle[i], curvature * mesh.node_length[i]);
+    EXPECT_DOUBLE_EQ(mesh.natural_half_tangent[i], std::tan(0.5 * mesh.natural_angle[i]));
+  }
+  // By pi or more at a node, not finite, or not the natural shape that has a curvature.
+  EXPECT_THROW(make_ring_mesh(polygon, NaturalShape::curvature, 1e8), ParameterError);
+  EXPECT_THROW(make_ring_mesh(polygon, NaturalShape::curvature, std::nan("")), ParameterError);
+  EXPECT_THROW(make_ring_mesh(polygon, NaturalShape::flat, curvature), ParameterError);
+}
+
 TEST(RingMesh, refuses_clockwise_coincident_and_too_few_nodes) {
   EXPECT_THROW(make_ring_mesh({{1, -1}, {-1, -1}, {-1, 1}, {1, 1}}, NaturalShape::flat),
                ParameterError);
