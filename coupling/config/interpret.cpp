@@ -63,7 +63,7 @@ class Applicability {
     const Answer chooser_applies = applies(chooser);
     if (chooser_applies != Answer::yes) return chooser_applies;
     if (given != values_.end() && !given->second.value) return Answer::unknown;
-    return value_text(chooser) == condition.value ? Answer::yes : Answer::no;
+    return (value_text(chooser) == condition.value) != condition.differs ? Answer::yes : Answer::no;
   }
 
   std::string value_text(const Parameter& chooser) const {

@@ -5,7 +5,7 @@
 
 #include "coupling/config/parameter_table.hpp"
 
-// The parameter table is written down in five files, a function for each part; parameter_table()
+// The parameter table is written down in files, a function for each part; parameter_table()
 // joins them. Nothing but parameter_table.cpp calls these.
 namespace hemoscale::coupling {
 
@@ -25,6 +25,9 @@ std::vector<Parameter> micro_parameters();
 /// micro.plasma, and the flows that it can resolve.
 std::vector<Parameter> plasma_parameters();
 const std::vector<std::string>& plasma_flows();
+
+/// micro.cell: the red cells in plasma.
+std::vector<Parameter> cell_in_plasma_parameters();
 
 /// The parameters of every viscosity law under `section`, e.g. "law" gives "law.casson.viscosity".
 /// Those of a law apply when `chooser` names it.

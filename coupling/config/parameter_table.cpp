@@ -119,8 +119,9 @@ std::string conditions_text(const std::vector<Condition>& conditions) {
   std::string text;
   for (const Condition& condition : conditions) {
     if (!text.empty()) text += " and ";
-    text += condition.value.empty() ? condition.key + " is not given"
-                                    : condition.key + " = " + condition.value;
+    text += condition.value.empty()
+                ? condition.key + " is not given"
+                : condition.key + (condition.differs ? " is not " : " = ") + condition.value;
   }
   return text;
 }

@@ -31,11 +31,16 @@ struct Range {
   bool contains(double value) const;
 };
 
-/// Holds if the value of `key` (a choice, or a boolean as "true" or "false") is `value`; with an
-/// empty `value`, if `key` has no value at all.
+/// Holds if the value of `key` (a choice, or a boolean as "true" or "false") is `value`, or with
+/// `differs`, if it is another one; with an empty `value`, if `key` has no value at all.
 struct Condition {
   std::string key;
   std::string value;
+  bool differs = false;
+
+  friend bool operator==(const Condition& a, const Condition& b) {
+    return a.key == b.key && a.value == b.value && a.differs == b.differs;
+  }
 };
 
 /// "The value must exceed that of another key", e.g. a cut-off its rest distance.

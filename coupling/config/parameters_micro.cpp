@@ -203,8 +203,9 @@ std::vector<Parameter> synthetic_parameters() {
 
 std::vector<Parameter> micro_parameters() {
   std::vector<Parameter> table;
-  for (const auto& part : {domain_parameters(), cell_parameters(), force_parameters(),
-                           run_parameters(), plasma_parameters(), synthetic_parameters()}) {
+  for (const auto& part :
+       {domain_parameters(), cell_parameters(), force_parameters(), run_parameters(),
+        plasma_parameters(), cell_in_plasma_parameters(), synthetic_parameters()}) {
     table.insert(table.end(), part.begin(), part.end());
   }
   return table;

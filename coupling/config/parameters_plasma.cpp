@@ -29,28 +29,41 @@ Parameter choice(const std::string& key, const std::vector<std::string>& choices
   return parameter;
 }
 
+/// Unbounded flow has no particles.
+const Condition bounded = {"micro.plasma.flow", "unbounded-shear", true};
+
 /// The flow: where, how fast, how finely.
 std::vector<Parameter> flow_parameters() {
   const std::string only = "needed by the flows that have one";
   Parameter flow = choice("flow", plasma_flows(), "",
                           "What flows where; cases/plasma-verification holds an example of each.");
   flow.default_value = "open-channel";
+  Parameter membranes = choice(
+      "membranes", {"none", "implicit", "immersed", "direct"}, "",
+      "Red cells in the plasma, and how they meet it. implicit: boundary integrals and nodes, "
+      "quasi-steady, stable for any stiffness; immersed: spread forces, explicit; direct: membrane "
+      "nodes are particles of the plasma (Tsubota et al. 2006), explicit.");
+  membranes.default_value = "none";
   Parameter length = quantity("length", "m", above(0), "",
                               "Length of the domain along the flow; edge of boxes and patches.");
   length.required = true;
+  length.applies_when.push_back(bounded);
   Parameter spacing = quantity("spacing", "m", above(0), "", "Mean distance of the particles, l0.");
   spacing.required = true;
+  spacing.applies_when.push_back(bounded);
   Parameter disorder =
       quantity("disorder", "",
                {.lowest = 0, .highest = 0.5, .lowest_allowed = true, .highest_allowed = false}, "",
                "Each particle starts displaced at random by up to this times the spacing.");
   disorder.default_value = "0";
+  disorder.applies_when.push_back(bounded);
   Parameter inlet = choice("inlet", {"uniform", "parabolic"}, "",
                            "Velocity at the inlet of open channels: uniform, scaled to the exact "
                            "flux, or the parabola of developed flow.");
   inlet.default_value = "uniform";
   return {
       flow,
+      membranes,
       length,
       quantity("height", "m", above(0), only, "Distance of the walls; diameter of the pipe."),
       spacing,
@@ -61,8 +74,10 @@ std::vector<Parameter> flow_parameters() {
       inlet,
       quantity("frequency", "1/s", above(0), "steady driving",
                "Of the pressure gradient of a periodic channel that oscillates (Womersley flow)."),
-      quantity("rate", "1/s", above(0), only,
-               "Shear rate of the shear box; angular velocity of the rotating patch."),
+      quantity(
+          "rate", "1/s", above(0), only,
+          "Shear rate of the shear box and of unbounded shear; angular velocity of the rotating "
+          "patch."),
       quantity("gravity", "m/s^2", above(0), only, "Acceleration that holds the column down."),
       quantity("radius", "m", above(0), only, "Radius of the cylinder in the channel."),
       quantity("throat", "m", above(0), only, "Smallest height of the constriction."),
@@ -131,10 +146,11 @@ std::vector<Parameter> method_parameters() {
 }  // namespace
 
 const std::vector<std::string>& plasma_flows() {
-  static const std::vector<std::string> flows = {"open-channel", "periodic-channel", "couette",
-                                                 "taylor-green", "taylor-green-3d",  "shear-box",
-                                                 "column",       "rotating-patch",   "cylinder",
-                                                 "constriction", "bifurcation",      "pipe"};
+  static const std::vector<std::string> flows = {"open-channel",   "periodic-channel", "couette",
+                                                 "taylor-green",   "taylor-green-3d",  "shear-box",
+                                                 "column",         "rotating-patch",   "cylinder",
+                                                 "constriction",   "bifurcation",      "pipe",
+                                                 "unbounded-shear"};
   return flows;
 }
 

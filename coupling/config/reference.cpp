@@ -138,9 +138,7 @@ std::vector<Condition> shared_conditions(const std::vector<const Parameter*>& se
   for (const Parameter* parameter : section) {
     const auto missing = [&](const Condition& condition) {
       return std::none_of(parameter->applies_when.begin(), parameter->applies_when.end(),
-                          [&](const Condition& other) {
-                            return other.key == condition.key && other.value == condition.value;
-                          });
+                          [&](const Condition& other) { return other == condition; });
     };
     shared.erase(std::remove_if(shared.begin(), shared.end(), missing), shared.end());
   }
@@ -155,9 +153,8 @@ std::string section_markdown(const std::vector<const Parameter*>& section) {
   for (const Parameter* parameter : section) {
     std::vector<Condition> own;
     for (const Condition& condition : parameter->applies_when) {
-      const bool told = std::any_of(shared.begin(), shared.end(), [&](const Condition& other) {
-        return other.key == condition.key && other.value == condition.value;
-      });
+      const bool told = std::any_of(shared.begin(), shared.end(),
+                                    [&](const Condition& other) { return other == condition; });
       if (!told) own.push_back(condition);
     }
     std::string meaning = parameter->sentence;

@@ -8,133 +8,30 @@ law.csv          viscosity law with its confidence band, samples.csv with error 
 series.csv       a coupled run: convergence of the passes (or passes.csv)               convergence.png
                  otherwise: every column over the first one                             series.png
 trajectory*.h5   cells in the first and in the last frame                               cells*.png
+cells.csv        outlines over time, the last one enlarged                              cell-shapes.png
+flow*.csv        pressure and streamlines around the cells                              cell-flow.png
+series.csv       with columns of cells: speed, length, gap, angle, steady state         cell-series.png
 
 What is absent is not drawn. Needs the Debian packages python3-matplotlib, python3-numpy and, for
 trajectories, python3-h5py-mpi (or python3-h5py).
 """
 
-import csv
 import glob
-import json
 import os
 import re
 import sys
 import textwrap
 
-import matplotlib
+# Where the scripts lie may not be writable, and is no place for compiled copies.
+sys.dont_write_bytecode = True
 
-matplotlib.use("Agg")
+import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
-# Colours of Okabe and Ito (2008), which colour-blind readers tell apart; line styles differ too.
-BLUE, ORANGE, GREEN, RED, GREY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#666666"
-PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M"}
-
-plt.rcParams.update(
-    {
-        "font.size": 10,
-        "axes.grid": True,
-        "grid.alpha": 0.3,
-        "axes.spines.top": False,
-        "axes.spines.right": False,
-        "legend.frameon": False,
-        "lines.linewidth": 1.6,
-    }
-)
-
-
-class Table:
-    """A table of numbers with units in its header."""
-
-    def __init__(self, path):
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-        if not rows:
-            raise ValueError("there is no header")
-        self.names, self.units, self.columns = [], [], []
-        for head in rows[0]:
-            match = re.fullmatch(r"(.+) \[(.+)\]", head)
-            if not match:
-                raise ValueError(f"'{head}' is not of the form 'name [unit]'")
-            self.names.append(match[1])
-            self.units.append("" if match[2] == "-" else match[2])
-        numbers = np.array([[float(text) for text in row] for row in rows[1:]])
-        self.columns = numbers.reshape(-1, len(self.names)).T
-
-    def __len__(self):
-        return self.columns.shape[1]
-
-    def index(self, start):
-        """Number of the first column whose name begins with `start`; none if there is none."""
-        start = start.replace("_", " ")
-        for number, name in enumerate(self.names):
-            if name.replace("_", " ").startswith(start):
-                return number
-        return None
-
-    def has(self, *starts):
-        return all(self.index(start) is not None for start in starts)
-
-    def __getitem__(self, start):
-        return self.columns[self.index(start)]
-
-    def unit(self, start):
-        return self.units[self.index(start)]
-
-
-def scaled(values, unit):
-    """Factor and unit in which values of an SI unit have few digits."""
-    finite = np.abs(values[np.isfinite(values)])
-    largest = finite.max() if finite.size else 0.0
-    if unit not in ("m", "m/s", "s", "Pa", "Pa s") or largest == 0:
-        return 1.0, unit
-    power = int(3 * np.floor(np.log10(largest * 1.0001) / 3))
-    power = min(max(power, -9), 6)
-    return 10.0**-power, PREFIXES[power] + unit
-
-
-def label(name, unit):
-    name = name.replace("_", " ")
-    if len(name) > 1:  # a symbol stays as it is
-        name = name[:1].upper() + name[1:]
-    return f"{name} [{unit.replace('Pa s', 'Pa·s')}]" if unit else name
-
-
-class Folder:
-    """A results folder and how pictures of it are signed."""
-
-    def __init__(self, path):
-        self.path = path
-        self.title, self.statements = "", []
-        try:
-            with open(os.path.join(path, "summary.json"), encoding="utf-8") as file:
-                summary = json.load(file)
-            self.title, self.statements = summary["title"], summary["statements"]
-        except FileNotFoundError:
-            pass
-
-    def table(self, name):
-        path = os.path.join(self.path, name)
-        try:
-            return Table(path)
-        except FileNotFoundError:
-            return None
-        except ValueError as error:
-            sys.exit(f"{path}: {error}; correct or remove the file")
-
-    def save(self, figure, name):
-        if self.title:
-            figure.suptitle(self.title, x=0.01, ha="left", fontweight="bold")
-        width = int(figure.get_figwidth() * 17)
-        lines = textwrap.wrap("; ".join(self.statements), width)
-        bottom = 0.13 * len(lines) / figure.get_figheight()
-        figure.tight_layout(rect=(0, bottom, 1, 1))
-        figure.text(0.01, 0.01, "\n".join(lines), fontsize=7, color=GREY)
-        path = os.path.join(self.path, name)
-        figure.savefig(path, dpi=150)
-        plt.close(figure)
-        print(path)
+from cell_series import draw_cell_series
+from cells import draw_cell_flow, draw_cell_shapes
+from picture import BLUE, GREEN, GREY, ORANGE, RED, Folder, label, scaled
 
 
 def draw_profile(folder):
@@ -247,10 +144,12 @@ def draw_series(folder):
             return
     if table is None or len(table) == 0:
         return
-    count = len(table.names) - 1
+    # Of many cells the first stands for all; draw_cell_series shows the others.
+    shown = [n for n, name in enumerate(table.names) if n and not re.match(r"cell [1-9]\d*:", name)]
+    count = len(shown)
     figure, axes = plt.subplots(count, 1, figsize=(6, 1.2 + 1.7 * count), sharex=True, squeeze=False)
     factor, unit = scaled(table.columns[0], table.units[0])
-    for axis, n in zip(axes[:, 0], range(1, count + 1)):
+    for axis, n in zip(axes[:, 0], shown):
         value_factor, value_unit = scaled(table.columns[n], table.units[n])
         axis.plot(table.columns[0] * factor, table.columns[n] * value_factor, color=BLUE)
         axis.set_ylabel(textwrap.fill(label(table.names[n], value_unit), 22), fontsize=8)
@@ -336,6 +235,9 @@ def main():
     draw_law(folder)
     draw_series(folder)
     draw_cells(folder)
+    draw_cell_shapes(folder)
+    draw_cell_flow(folder)
+    draw_cell_series(folder)
 
 
 if __name__ == "__main__":

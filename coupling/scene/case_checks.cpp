@@ -6,6 +6,7 @@
 #include "coupling/scene/build_law.hpp"
 #include "coupling/scene/build_loop.hpp"
 #include "coupling/scene/build_micro.hpp"
+#include "coupling/scene/cell_scene.hpp"
 #include "coupling/scene/plasma_scene.hpp"
 #include "macro/error.hpp"
 #include "micro/ensemble/step_limit.hpp"
@@ -84,6 +85,27 @@ void check_plasma(const Settings& settings, bool force, FaultList& list) {
   });
 }
 
+void check_cells(const Settings& settings, bool force, FaultList& list) {
+  list.attempt("micro.plasma.membranes", [&] {
+    if (plasma_dimension(settings) == 3) {
+      list.add("micro.plasma.flow",
+               fmt::format("\"{}\" has three dimensions, and membranes are rings of the plane; "
+                           "choose a plane flow",
+                           settings.text("micro.plasma.flow")));
+      return;
+    }
+    const CellScene scene = build_cell_scene(settings, force);
+    // The implicit coupling has no limits, and building it factors the plasma's matrix.
+    if (settings.text("micro.plasma.membranes") == "implicit" || force) return;
+    const bool has_step = settings.has("micro.plasma.time_step");
+    for (const micro::Limit& limit : build_cells_in_plasma(scene, settings, true).limits()) {
+      if (!limit.exceeded()) continue;
+      list.add(has_step ? "micro.plasma.time_step" : "micro.plasma.membranes",
+               micro::describe(limit) + "; --force runs anyway");
+    }
+  });
+}
+
 }  // namespace
 
 std::vector<Fault> find_faults(const Settings& settings, bool force) {
@@ -96,7 +118,13 @@ std::vector<Fault> find_faults(const Settings& settings, bool force) {
                "\"micro\", or micro.model = \"ensemble\"");
       return list.faults;
     }
-    if (plasma_dimension(settings) == 3) {
+    if (has_cells_in_plasma(settings)) {
+      check_cells(settings, force, list);
+    } else if (settings.text("micro.plasma.flow") == "unbounded-shear") {
+      list.add("micro.plasma.flow",
+               "\"unbounded-shear\" has no particles of plasma; give it cells by "
+               "micro.plasma.membranes = \"implicit\"");
+    } else if (plasma_dimension(settings) == 3) {
       check_plasma<3>(settings, force, list);
     } else {
       check_plasma<2>(settings, force, list);

@@ -13,6 +13,7 @@
 #include "coupling/scene/build_law.hpp"
 #include "coupling/scene/build_loop.hpp"
 #include "coupling/scene/build_micro.hpp"
+#include "coupling/scene/cell_results.hpp"
 #include "coupling/scene/plasma_results.hpp"
 #include "coupling/scene/trajectory_output.hpp"
 #include "micro/snapshot/durable_file.hpp"
@@ -52,7 +53,9 @@ std::vector<std::string> model_statements(const Settings& settings) {
   if (settings.text("micro.model") == "synthetic") {
     return {"synthetic micro model: its rheology was put in, not found"};
   }
-  if (settings.text("micro.model") == "plasma") return plasma_statements(settings);
+  if (settings.text("micro.model") == "plasma") {
+    return has_cells_in_plasma(settings) ? cell_statements(settings) : plasma_statements(settings);
+  }
   return {
       "two-dimensional cells: stresses and viscosities are those of a suspension of infinitely "
       "long "

@@ -36,4 +36,7 @@ void run_micro(const PreparedRun& run);
 /// A plasma scene alone. Collective; the least-squares method shares its work among the ranks.
 void run_plasma(const PreparedRun& run, const std::shared_ptr<const micro::Communicator>& ranks);
 
+/// Red cells in plasma alone. One process.
+void run_cells_in_plasma(const PreparedRun& run);
+
 }  // namespace hemoscale::coupling

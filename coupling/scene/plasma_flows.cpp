@@ -45,7 +45,8 @@ const std::map<std::string, FlowKeys>& flow_keys() {
       {"cylinder", {{"height", "speed", "radius"}, {"inlet"}, false}},
       {"constriction", {{"height", "speed", "throat", "narrowing"}, {"inlet"}, false}},
       {"bifurcation", {{"height", "speed", "nose", "divider"}, {"inlet"}, false}},
-      {"pipe", {{"height", "speed"}, {}, false}}};
+      {"pipe", {{"height", "speed"}, {}, false}},
+      {"unbounded-shear", {{"rate"}, {}, false}}};
   return keys;
 }
 
@@ -374,6 +375,7 @@ void build_plasma_flow<2>(const Settings& settings, PlasmaScene<2>& scene) {
   if (flow == "shear-box") return build_shear_box(settings, scene);
   if (flow == "column") return build_column(settings, scene);
   if (flow == "rotating-patch") return build_rotating_patch(settings, scene);
+  if (flow == "unbounded-shear") return;  // no particles: what is in it says how large it is
   build_shaped_channel(settings, scene);
 }
 

@@ -92,6 +92,9 @@ micro::StageOptions stage_options(const Settings& settings, const std::string& s
   read.take<Inertia>("inertia",
                      {{"unsteady", Inertia::unsteady}, {"quasi-steady", Inertia::quasi_steady}},
                      options.inertia);
+  if (settings.text(prefix + "membranes") == "implicit" && !read.gives("inertia")) {
+    options.inertia = Inertia::quasi_steady;  // the only kind that it takes
+  }
   read.take<NodeMotion>("motion",
                         {{"lagrangian", NodeMotion::lagrangian},
                          {"ale", NodeMotion::ale},

@@ -132,7 +132,8 @@ class PlasmaRun {
   }
 
   void record() {
-    const std::vector<double> row = plasma_row(scene_, model_);
+    std::vector<double> row = plasma_row(scene_, model_);
+    row.front() = done_;  // without the rounding of many steps, which a restart would stumble over
     on_root([&] {
       series_->append(row);
       if (!trajectory_) return;

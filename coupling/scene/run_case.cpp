@@ -10,6 +10,7 @@
 #include "coupling/scene/build_loop.hpp"
 #include "coupling/scene/build_micro.hpp"
 #include "coupling/scene/case_checks.hpp"
+#include "coupling/scene/cell_scene.hpp"
 #include "coupling/scene/coupled_run.hpp"
 #include "coupling/scene/hosts.hpp"
 #include "coupling/scene/plasma_scene.hpp"
@@ -107,7 +108,10 @@ std::string describe_case(const Settings& settings) {
                               settings.text("macro.openfoam.case"));
   }
   if (settings.text("micro.model") == "ensemble") text += describe_ensemble(settings);
-  if (settings.text("micro.model") == "plasma") text += describe_plasma(settings);
+  if (settings.text("micro.model") == "plasma") {
+    text += has_cells_in_plasma(settings) ? describe_cells_in_plasma(settings)
+                                          : describe_plasma(settings);
+  }
   for (const std::string& statement : model_statements(settings))
     text += "note: " + statement + "\n";
   return text;
@@ -120,7 +124,8 @@ void run_case(const RunOptions& options, micro::Communicator&& communicator, std
   const Settings settings =
       load_case(options.case_folder, options.variant, options.force, options.overrides);
   const bool is_micro = settings.text("scene.kind") == "micro";
-  const bool is_plasma = is_micro && settings.text("micro.model") == "plasma";
+  const bool has_cells = is_micro && has_cells_in_plasma(settings);
+  const bool is_plasma = is_micro && !has_cells && settings.text("micro.model") == "plasma";
   const bool is_openfoam = !is_micro && settings.text("macro.model") == "openfoam";
   if (group.size() > 1 && ((is_micro && !is_plasma) || is_openfoam)) {
     throw CaseError(
@@ -154,7 +159,9 @@ void run_case(const RunOptions& options, micro::Communicator&& communicator, std
 
   const PreparedRun run{settings, place.folder,    place.file,    variant,
                         results,  options.restart, options.force, say};
-  if (is_plasma) {
+  if (has_cells) {
+    run_cells_in_plasma(run);
+  } else if (is_plasma) {
     run_plasma(run, ranks);
   } else if (is_micro) {
     run_micro(run);

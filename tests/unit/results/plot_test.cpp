@@ -1,32 +1,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include "coupling/report/series.hpp"
 #include "coupling/report/summary.hpp"
+#include "tests/unit/results/pictures.hpp"
 #include "tests/unit/results/python_script.hpp"
 #include "tests/unit/results/sample_trajectory.hpp"
 #include "tests/unit/results/scratch_folder.hpp"
 
 namespace hemoscale::tests {
 namespace {
-
-namespace fs = std::filesystem;
-
-int plot(const fs::path& results) {
-  return run_script("coupling/report/plot.py", results);
-}
-
-bool is_picture(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string signature(4, '\0');
-  file.read(signature.data(), 4);
-  return signature == "\x89PNG" && fs::file_size(path) > 5000;
-}
 
 class Plot : public testing::Test {
  protected:
