@@ -56,14 +56,24 @@ Parameter noted(Parameter parameter, const std::string& note) {
 std::vector<Parameter> shape_parameters() {
   const Condition deflated = {"micro.cell.outline", "deflated"};
   const Condition not_deflated = {"micro.cell.outline", "deflated", true};
+  const Condition in_table = {"micro.cell.outline", "table"};
+  const Condition not_in_table = {"micro.cell.outline", "table", true};
+  Parameter table = only_when(
+      required(quantity("outline_table", "", {}, "",
+                        "File of the nodes at rest, counter-clockwise, as a table with the header "
+                        "\"x [m],y [m]\"; relative to the case.")),
+      in_table);
+  table.kind = Kind::path;
   const Condition ellipse = {"micro.cell.outline", "ellipse"};
   return {
       count("count", between(1, 1000), "1", "Number of cells."),
-      count("nodes", between(16, 1000), "59", "Nodes of the membrane of a cell."),
-      choice("outline", {"deflated", "evans-fung", "ellipse"},
+      choice("outline", {"deflated", "evans-fung", "ellipse", "table"},
              "Shape at rest: a circle deflated at constant perimeter to the least bending energy "
-             "(Tsubota et al. 2006), the section of the human cell by Evans and Fung (1972), or an "
-             "ellipse."),
+             "(Tsubota et al. 2006), the section of the human cell by Evans and Fung (1972), an "
+             "ellipse, or nodes from a table."),
+      table,
+      only_when(count("nodes", between(16, 1000), "59", "Nodes of the membrane of a cell."),
+                not_in_table),
       only_when(
           quantity("perimeter", "m", above(0), "19.27 um",
                    "Perimeter of the deflated cell; the default is that of the section of the "
@@ -73,8 +83,10 @@ std::vector<Parameter> shape_parameters() {
                          "4 pi area / perimeter^2 of the deflated cell: 0.46 of the human section, "
                          "0.30 for the literal reading of \"decrease by 70 %\"."),
                 deflated),
-      only_when(quantity("length", "m", above(0), "7.82 um", "Length of the cell at rest."),
-                not_deflated),
+      only_when(
+          only_when(quantity("length", "m", above(0), "7.82 um", "Length of the cell at rest."),
+                    not_deflated),
+          not_in_table),
       only_when(quantity("aspect", "", between(0.1, 1), "0.35",
                          "Thickness of the ellipse over its length."),
                 ellipse),

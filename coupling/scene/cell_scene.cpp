@@ -5,10 +5,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numbers>
 
 #include "coupling/error.hpp"
+#include "coupling/report/series.hpp"
 #include "micro/cells/outline.hpp"
 #include "micro/cells/outline_checks.hpp"
 #include "micro/cells/rest_shape.hpp"
@@ -39,9 +41,36 @@ class KeyFaults {
   std::vector<Fault> faults_;
 };
 
+/// Nodes from a file beside the case.
+Points tabulated_outline(const Settings& settings) {
+  const std::string key = prefix + "outline_table";
+  std::filesystem::path path = settings.text(key);
+  const std::filesystem::path folder =
+      std::filesystem::path(settings.location(key).file).parent_path();
+  if (path.is_relative()) path = folder / path;
+  const Table table = read_table(path);
+  KeyFaults faults(settings);
+  const bool has_columns =
+      table.columns.size() == 2 && table.columns[0].unit == "m" && table.columns[1].unit == "m";
+  if (!has_columns || table.rows.size() < 16) {
+    faults.add(key, fmt::format("{} has {} columns and {} rows; two columns, \"x [m],y [m]\", and "
+                                "at least 16 rows are needed",
+                                path.string(), table.columns.size(), table.rows.size()));
+    faults.finish();
+  }
+  Points nodes;
+  for (const std::vector<double>& row : table.rows) nodes.emplace_back(row[0], row[1]);
+  for (const std::string& line : micro::outline_faults(std::vector<Points>{nodes}, {})) {
+    faults.add(key, path.string() + ": " + line);
+  }
+  faults.finish();
+  return nodes;
+}
+
 Points rest_outline(const Settings& settings) {
-  const auto nodes = static_cast<int>(settings.integer(prefix + "nodes"));
   const std::string& outline = settings.text(prefix + "outline");
+  if (outline == "table") return tabulated_outline(settings);
+  const auto nodes = static_cast<int>(settings.integer(prefix + "nodes"));
   if (outline == "deflated") {
     micro::Deflation deflation;
     deflation.perimeter = settings.quantity(prefix + "perimeter");

@@ -7,10 +7,10 @@
 #include <limits>
 
 #include "micro/error.hpp"
-#include "micro/immersed/node_bins.hpp"
 #include "micro/mps/mps_kernel.hpp"
 #include "micro/mps/number_density.hpp"
 #include "micro/mps/particle_shifting.hpp"
+#include "micro/particles/node_bins.hpp"
 #include "micro/particles/rearrange.hpp"
 
 namespace hemoscale::micro {
@@ -49,7 +49,7 @@ std::vector<double> distances_to(const std::vector<Cell>& cells, const FlowDomai
 }
 
 /// Velocity of the plasma particle nearest to each node.
-std::vector<Vector<2>> plasma_velocities(const FlowDomain<2>& domain, const NodeBins& bins,
+std::vector<Vector<2>> plasma_velocities(const FlowDomain<2>& domain, const NodeBins<2>& bins,
                                          const Cell& cell, std::size_t number) {
   std::vector<Vector<2>> velocities;
   for (const Vector<2>& x : cell.positions) {
@@ -149,7 +149,7 @@ InsertedMembranes insert_membranes(const FlowDomain<2>& domain, const std::vecto
                                    const DirectInsertion& insertion, double gradient_ratio,
                                    double laplacian_ratio) {
   InsertedMembranes result;
-  const NodeBins bins(domain.particles.positions, domain.box, domain.spacing);
+  const NodeBins<2> bins(domain.particles.positions, domain.box, domain.spacing);
   std::vector<std::vector<Vector<2>>> velocities;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     velocities.push_back(plasma_velocities(domain, bins, cells[c], c));

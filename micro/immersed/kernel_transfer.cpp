@@ -9,7 +9,8 @@
 
 namespace hemoscale::micro {
 
-std::vector<double> node_areas(const ParticleSet<2>& nodes, const NodeBins& bins, double spacing) {
+std::vector<double> node_areas(const ParticleSet<2>& nodes, const NodeBins<2>& bins,
+                               double spacing) {
   constexpr int samples = 8;  // to a spacing
   const double step = spacing / samples;
   const Vector<2> extent = bins.upper() - bins.lower();

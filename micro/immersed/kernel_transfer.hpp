@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "micro/immersed/kernel_function.hpp"
-#include "micro/immersed/node_bins.hpp"
+#include "micro/particles/node_bins.hpp"
 #include "micro/particles/particle_set.hpp"
 
 namespace hemoscale::micro {
@@ -13,7 +13,8 @@ namespace hemoscale::micro {
 /// Share of the fluid that belongs to each resting node [m^2]: the part of the domain that is
 /// nearer to it than to any other, by 64 samples to a square spacing. On a lattice exact: l0^2, on
 /// walls half of it.
-std::vector<double> node_areas(const ParticleSet<2>& nodes, const NodeBins& bins, double spacing);
+std::vector<double> node_areas(const ParticleSet<2>& nodes, const NodeBins<2>& bins,
+                               double spacing);
 
 /// Weights w_i between one set of points X and the nodes x_i around each,
 ///
@@ -56,7 +57,7 @@ class KernelTransfer {
  private:
   double spacing_;
   TransferKernel kernel_;
-  NodeBins bins_;
+  NodeBins<2> bins_;
   std::vector<double> areas_;  // [m^2]
 };
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "micro/immersed/cell.hpp"
-#include "micro/immersed/node_bins.hpp"
 #include "micro/mps/flow_domain.hpp"
 #include "micro/mps/limits.hpp"
+#include "micro/particles/node_bins.hpp"
 
 namespace hemoscale::micro {
 
@@ -33,7 +33,7 @@ class MembraneBounds {
  private:
   double spacing_, wall_offset_, margin_;
   ParticleSet<2> boundary_;
-  std::optional<NodeBins> bins_;  // none without boundaries
+  std::optional<NodeBins<2>> bins_;  // none without boundaries
 };
 
 /// Shape of one cell against its rest shape.

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "micro/error.hpp"
 #include "micro/particles/weight.hpp"
@@ -35,86 +32,7 @@ Eigen::Matrix<double, unknowns<dim>, 1> polynomials(const Vector<dim>& r) {
 template <int dim>
 NodeSampler<dim>::NodeSampler(std::vector<Vector<dim>> positions, const PeriodicBox<dim>& box,
                               double radius)
-    : positions_(std::move(positions)), box_(box), radius_(radius) {
-  Vector<dim> upper = positions_.front();
-  lower_ = upper;
-  for (const Vector<dim>& x : positions_) {
-    lower_ = lower_.cwiseMin(x);
-    upper = upper.cwiseMax(x);
-  }
-  std::int64_t count = 1;
-  for (int axis = 0; axis < dim; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    if (box_.periodic[a]) {
-      lower_[axis] = box_.lower[axis];
-      upper[axis] = box_.upper[axis];
-    }
-    const double extent = upper[axis] - lower_[axis];
-    bins_[a] = std::max<std::int64_t>(1, static_cast<std::int64_t>(extent / radius_));
-    width_[axis] =
-        bins_[a] > 1 ? extent / static_cast<double>(bins_[a]) : std::max(extent, radius_);
-    count *= bins_[a];
-  }
-  bin_first_.assign(static_cast<std::size_t>(count) + 1, 0);
-  std::array<std::int64_t, 3> index{};
-  std::vector<std::int64_t> bin(positions_.size());
-  for (std::size_t i = 0; i < positions_.size(); ++i) {
-    bin[i] = bin_of(positions_[i], index);
-    ++bin_first_[static_cast<std::size_t>(bin[i]) + 1];
-  }
-  for (std::size_t b = 1; b < bin_first_.size(); ++b) bin_first_[b] += bin_first_[b - 1];
-  bin_nodes_.resize(positions_.size());
-  std::vector<std::int32_t> next(bin_first_.begin(), bin_first_.end() - 1);
-  for (std::size_t i = 0; i < positions_.size(); ++i) {
-    bin_nodes_[static_cast<std::size_t>(next[static_cast<std::size_t>(bin[i])]++)] =
-        static_cast<std::int32_t>(i);
-  }
-}
-
-template <int dim>
-std::int64_t NodeSampler<dim>::bin_of(const Vector<dim>& point,
-                                      std::array<std::int64_t, 3>& index) const {
-  const Vector<dim> x = wrapped(box_, point);
-  std::int64_t bin = 0;
-  for (int axis = dim - 1; axis >= 0; --axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    const auto i = static_cast<std::int64_t>(std::floor((x[axis] - lower_[axis]) / width_[axis]));
-    index[a] = std::clamp<std::int64_t>(i, 0, bins_[a] - 1);
-    bin = bin * bins_[a] + index[a];
-  }
-  return bin;
-}
-
-template <int dim>
-std::vector<std::int32_t> NodeSampler<dim>::near(const Vector<dim>& point) const {
-  std::array<std::int64_t, 3> centre{};
-  bin_of(point, centre);
-  std::vector<std::int32_t> found;
-  const int cells = dim == 2 ? 9 : 27;
-  std::array<std::int64_t, 27> visited{};
-  int visits = 0;
-  for (int cell = 0; cell < cells; ++cell) {
-    std::int64_t bin = 0;
-    bool is_inside = true;
-    for (int axis = dim - 1; axis >= 0; --axis) {
-      const auto a = static_cast<std::size_t>(axis);
-      const int digit = (axis == 0 ? cell : axis == 1 ? cell / 3 : cell / 9) % 3 - 1;
-      std::int64_t i = centre[a] + digit;
-      if (box_.periodic[a]) i = (i + bins_[a]) % bins_[a];
-      is_inside = is_inside && i >= 0 && i < bins_[a];
-      bin = bin * bins_[a] + i;
-    }
-    // With fewer than three bins around a period one comes up more than once.
-    const auto end = visited.begin() + visits;
-    if (!is_inside || std::find(visited.begin(), end, bin) != end) continue;
-    visited[static_cast<std::size_t>(visits++)] = bin;
-    for (std::int32_t k = bin_first_[static_cast<std::size_t>(bin)];
-         k < bin_first_[static_cast<std::size_t>(bin) + 1]; ++k) {
-      found.push_back(bin_nodes_[static_cast<std::size_t>(k)]);
-    }
-  }
-  return found;
-}
+    : bins_(std::move(positions), box, radius), radius_(radius) {}
 
 /// Nodes around a point, their weighted polynomials and the factors of the moment matrix.
 template <int dim>
@@ -130,15 +48,14 @@ template <int dim>
 typename NodeSampler<dim>::Fit NodeSampler<dim>::fit(const Vector<dim>& point) const {
   Fit fit;
   typename Fit::Moments moments = Fit::Moments::Zero();
-  for (const std::int32_t j : near(point)) {
-    const Vector<dim> r = separation(box_, point, positions_[static_cast<std::size_t>(j)]);
+  bins_.visit_around(point, 1, [&](std::size_t j, const Vector<dim>& r) {
     const double weight = compact_weight(r.norm(), radius_);
-    if (weight == 0) continue;
+    if (weight == 0) return;
     const typename Fit::Row q = polynomials<dim>(r / radius_);
     moments.noalias() += weight * q * q.transpose();
-    fit.nodes.push_back(j);
+    fit.nodes.push_back(static_cast<std::int32_t>(j));
     fit.rows.push_back(weight * q);
-  }
+  });
   fit.factors.compute(moments);
   const auto pivots = fit.factors.vectorD();
   if (fit.rows.size() < static_cast<std::size_t>(unknowns<dim>) ||

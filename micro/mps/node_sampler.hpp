@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "micro/particles/node_bins.hpp"
 #include "micro/particles/periodic_box.hpp"
 #include "micro/vector.hpp"
 
@@ -47,17 +47,9 @@ class NodeSampler {
  private:
   struct Fit;
   Fit fit(const Vector<dim>& point) const;
-  std::vector<std::int32_t> near(const Vector<dim>& point) const;
-  std::int64_t bin_of(const Vector<dim>& point, std::array<std::int64_t, 3>& index) const;
 
-  std::vector<Vector<dim>> positions_;
-  PeriodicBox<dim> box_;
-  double radius_;
-  Vector<dim> lower_;  // [m] of the bins
-  std::array<std::int64_t, 3> bins_ = {1, 1, 1};
-  Vector<dim> width_;                    // [m] of a bin, at least the radius
-  std::vector<std::int32_t> bin_first_;  // nodes in the order of their bins
-  std::vector<std::int32_t> bin_nodes_;
+  NodeBins<dim> bins_;
+  double radius_;  // [m]
 };
 
 }  // namespace hemoscale::micro

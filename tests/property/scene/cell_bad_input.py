@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Cells in plasma that cannot be: every fault is named with its key, what is allowed and a remedy."""
 
+import math
 import pathlib
 import sys
 import unittest
@@ -54,6 +55,29 @@ class BadCells(CommandLineTest):
     def test_modulus_without_its_law(self):
         self.refused(changed(CELLS, ("nodes = 40", 'nodes = 40\nstretch_modulus = "1 N/m"')),
                      "micro.cell.stretch_modulus", "stretch_law")
+
+    def outline_of(self, angles):
+        """A case whose outline is read from a table beside it."""
+        case = self.write_case(changed(CELLS, ("nodes = 40", 'outline = "table"\n'
+                                               'outline_table = "outline.csv"')))
+        points = [(3e-6 * math.cos(a), 1.5e-6 * math.sin(k * a)) for a, k in angles]
+        text = "x [m],y [m]\n" + "".join(f"{x!r},{y!r}\n" for x, y in points)
+        (case / "outline.csv").write_text(text, encoding="utf-8")
+        return case
+
+    def test_outline_from_a_table(self):
+        turns = [2 * math.pi * i / 40 for i in range(40)]
+        good = self.outline_of([(a, 1) for a in turns])
+        self.run_case(good)
+        crossing = self.outline_of([(a + 0.05, 2) for a in turns])
+        self.assert_refused(self.hemoscale("check", crossing), 2, "micro.cell.outline_table",
+                            "outline.csv", "segment")
+        clockwise = self.outline_of([(-a, 1) for a in turns])
+        self.assert_refused(self.hemoscale("check", clockwise), 2, "clockwise")
+        short = self.outline_of([(a, 1) for a in turns[::5]])
+        self.assert_refused(self.hemoscale("check", short), 2, "8 rows", "at least 16")
+        (good / "outline.csv").unlink()
+        self.assert_refused(self.hemoscale("check", good), 3, "outline.csv")
 
     def test_reduced_area_beyond_contact(self):
         self.refused(changed(CELLS, ("nodes = 40", "nodes = 40\nreduced_area = 0.2")),

@@ -37,7 +37,7 @@ double largest_area_error(const ImplicitMembranes& membranes) {
 TEST(ManyCells, train_of_ten_is_a_train_of_one_repeated) {
   std::vector<ImplicitMembranes> trains;
   for (const int count : {10, 1}) {
-    trains.emplace_back(kept_channel(count * pitch, height, 1 * micron, speed),
+    trains.emplace_back(kept_channel(count * pitch, height, 0.8 * micron, speed),
                         row_of(count, 40, pitch / 2), ImplicitOptions{.longest_step = 1e-3});
     trains.back().advance_by(0.03);
     EXPECT_LT(largest_area_error(trains.back()), 1e-6);

@@ -1,26 +1,28 @@
-#include "micro/immersed/node_bins.hpp"
+#include "micro/particles/node_bins.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "micro/error.hpp"
 
 namespace hemoscale::micro {
 
-NodeBins::NodeBins(std::vector<Vector<2>> points, const PeriodicBox<2>& box, double size)
+template <int dim>
+NodeBins<dim>::NodeBins(std::vector<Vector<dim>> points, const PeriodicBox<dim>& box, double size)
     : points_(std::move(points)), box_(box) {
   if (points_.empty()) throw ParameterError("there is no point to search for; add nodes");
   if (box.slide != 0) {
     throw ParameterError(
-        "the box slides; membranes need resting images; shear them between moving walls instead");
+        "the box slides; points that are searched by place need resting images; use moving walls");
   }
   lower_ = upper_ = points_.front();
-  for (const Vector<2>& x : points_) {
+  for (const Vector<dim>& x : points_) {
     lower_ = lower_.cwiseMin(x);
     upper_ = upper_.cwiseMax(x);
   }
-  for (std::size_t axis = 0; axis < 2; ++axis) {
+  for (std::size_t axis = 0; axis < dim_size; ++axis) {
     const auto a = static_cast<Eigen::Index>(axis);
     if (box.periodic[axis]) {
       lower_[a] = box.lower[a];
@@ -30,16 +32,20 @@ NodeBins::NodeBins(std::vector<Vector<2>> points, const PeriodicBox<2>& box, dou
     counts_[axis] = std::max(1L, static_cast<long>(std::floor(extent / size)));
     if (box.periodic[axis] && counts_[axis] < 5) {
       throw ParameterError(
-          fmt::format("the box is {:g} m wide along axis {}; membranes need at least five spacings "
-                      "of {:g} m; enlarge it",
+          fmt::format("the box is {:g} m wide along axis {}; at least five bins of {:g} m are "
+                      "needed; enlarge it",
                       extent, axis, size));
     }
   }
   std::vector<std::size_t> bins(points_.size());
-  first_.assign(static_cast<std::size_t>(counts_[0] * counts_[1]) + 1, 0);
+  long count = 1;
+  for (const long along : counts_) count *= along;
+  first_.assign(static_cast<std::size_t>(count) + 1, 0);
   for (std::size_t k = 0; k < points_.size(); ++k) {
-    const std::array<long, 2> bin = bin_of(points_[k]);
-    bins[k] = static_cast<std::size_t>(bin[1] * counts_[0] + bin[0]);
+    const Index at = bin_of(points_[k]);
+    long bin = 0;
+    for (std::size_t axis = dim_size; axis-- > 0;) bin = bin * counts_[axis] + at[axis];
+    bins[k] = static_cast<std::size_t>(bin);
     ++first_[bins[k] + 1];
   }
   for (std::size_t bin = 1; bin < first_.size(); ++bin) first_[bin] += first_[bin - 1];
@@ -48,10 +54,11 @@ NodeBins::NodeBins(std::vector<Vector<2>> points, const PeriodicBox<2>& box, dou
   for (std::size_t k = 0; k < points_.size(); ++k) order_[next[bins[k]]++] = k;
 }
 
-std::array<long, 2> NodeBins::bin_of(const Vector<2>& x) const {
-  const Vector<2> y = wrapped(box_, x);
-  std::array<long, 2> bin = {};
-  for (std::size_t axis = 0; axis < 2; ++axis) {
+template <int dim>
+typename NodeBins<dim>::Index NodeBins<dim>::bin_of(const Vector<dim>& x) const {
+  const Vector<dim> y = wrapped(box_, x);
+  Index bin = {};
+  for (std::size_t axis = 0; axis < dim_size; ++axis) {
     const auto a = static_cast<Eigen::Index>(axis);
     const double extent = upper_[a] - lower_[a];
     const double place = extent > 0 ? (y[a] - lower_[a]) / extent : 0;
@@ -61,5 +68,8 @@ std::array<long, 2> NodeBins::bin_of(const Vector<2>& x) const {
   }
   return bin;
 }
+
+template class NodeBins<2>;
+template class NodeBins<3>;
 
 }  // namespace hemoscale::micro
