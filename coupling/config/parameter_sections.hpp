@@ -22,6 +22,12 @@ std::vector<Parameter> loop_parameters();
 /// micro.
 std::vector<Parameter> micro_parameters();
 
+/// micro.flow: what carries an ensemble in a channel.
+std::vector<Parameter> ensemble_flow_parameters();
+
+/// micro.integrator and what else only an ensemble on vectors has: packing, platelets.
+std::vector<Parameter> ensemble_scheme_parameters();
+
 /// micro.plasma, and the flows that it can resolve.
 std::vector<Parameter> plasma_parameters();
 const std::vector<std::string>& plasma_flows();

@@ -54,12 +54,12 @@ std::vector<Parameter> domain_parameters() {
   return {
       {.key = "micro.domain",
        .kind = Kind::choice,
-       .choices = {"shear-box", "channel"},
+       .choices = {"shear-box", "channel", "geometry"},
        .default_value = "shear-box",
        .applies_when = {ensemble},
        .sentence =
-           "Periodic box in simple shear, or channel between two walls; coupled scenes need "
-           "the shear box."},
+           "Periodic box in simple shear, channel between two walls, or the geometry of a flow "
+           "with inlet and outlets (micro.flow); coupled scenes need the shear box."},
       count_of_ensemble("micro.cells", between(1, 1000000), "24", "Number of cells."),
       count_of_ensemble("micro.nodes", between(8, 1000), "40", "Nodes of the membrane of a cell."),
       of_ensemble("micro.aspect_ratio", "", between(0.2, 50), "1",
@@ -96,11 +96,17 @@ std::vector<Parameter> cell_parameters() {
   Parameter aspect = of_ensemble("micro.shape.aspect", "", between(0.1, 1), "0.35",
                                  "Thickness of the ellipse over its length.");
   aspect.applies_when.push_back({"micro.shape.outline", "ellipse"});
+  Parameter reduced_area = of_ensemble("micro.shape.reduced_area", "", between(0.28, 0.99), "0.30",
+                                       "Area of the deflated outline over that of the circle of "
+                                       "its perimeter.");
+  reduced_area.applies_when.push_back({"micro.shape.outline", "deflated"});
   return {
-      choice_of_ensemble("micro.shape.outline", {"evans-fung", "ellipse"}, "evans-fung",
-                         "Outline of a cell: biconcave (Evans and Fung 1972), or an ellipse."),
+      choice_of_ensemble("micro.shape.outline", {"evans-fung", "ellipse", "deflated"}, "evans-fung",
+                         "Outline of a cell: biconcave (Evans and Fung 1972), an ellipse, or a "
+                         "circle deflated at constant perimeter."),
       of_ensemble("micro.shape.length", "m", above(0), "7.82 um", "Length of a cell at rest."),
       aspect,
+      reduced_area,
       of_ensemble("micro.membrane.stretch_modulus", "N/m", above(0), "5e-6 N/m",
                   "Resistance of the membrane to stretching, per unit depth."),
       of_ensemble("micro.membrane.bending_modulus", "J", at_least(0), "2e-19 J",
@@ -204,8 +210,9 @@ std::vector<Parameter> synthetic_parameters() {
 std::vector<Parameter> micro_parameters() {
   std::vector<Parameter> table;
   for (const auto& part :
-       {domain_parameters(), cell_parameters(), force_parameters(), run_parameters(),
-        plasma_parameters(), cell_in_plasma_parameters(), synthetic_parameters()}) {
+       {domain_parameters(), ensemble_flow_parameters(), ensemble_scheme_parameters(),
+        cell_parameters(), force_parameters(), run_parameters(), plasma_parameters(),
+        cell_in_plasma_parameters(), synthetic_parameters()}) {
     table.insert(table.end(), part.begin(), part.end());
   }
   return table;

@@ -114,14 +114,19 @@ class Folder:
         except ValueError as error:
             sys.exit(f"{path}: {error}; correct or remove the file")
 
-    def save(self, figure, name):
+    def notes(self, width):
+        """What the results are not, as the lines below a figure of that width [inch]."""
+        return textwrap.wrap("; ".join(self.statements), int(width * 17))
+
+    def save(self, figure, name, fit=True):
+        """Writes a figure with its title and notes; `fit` lets the axes fill what is left."""
         if self.title:
             figure.suptitle(self.title, x=0.01, ha="left", fontweight="bold")
-        width = int(figure.get_figwidth() * 17)
-        lines = textwrap.wrap("; ".join(self.statements), width)
-        bottom = 0.13 * len(lines) / figure.get_figheight()
-        top = 1 - (0.15 / figure.get_figheight() if self.title else 0)
-        figure.tight_layout(rect=(0, bottom, 1, top))
+        lines = self.notes(figure.get_figwidth())
+        if fit:
+            bottom = 0.13 * len(lines) / figure.get_figheight()
+            top = 1 - (0.15 / figure.get_figheight() if self.title else 0)
+            figure.tight_layout(rect=(0, bottom, 1, top))
         figure.text(0.01, 0.01, "\n".join(lines), fontsize=7, color=GREY)
         path = os.path.join(self.path, name)
         figure.savefig(path, dpi=150)

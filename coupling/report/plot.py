@@ -11,6 +11,8 @@ trajectory*.h5   cells in the first and in the last frame                       
 cells.csv        outlines over time, the last one enlarged                              cell-shapes.png
 flow*.csv        pressure and streamlines around the cells                              cell-flow.png
 series.csv       with columns of cells: speed, length, gap, angle, steady state         cell-series.png
+series.csv       of an ensemble in a given flow, with the tables beside it:             ensemble-*.png
+                 cells at start and end, concentration over time, profiles, series
 
 What is absent is not drawn. Needs the Debian packages python3-matplotlib, python3-numpy and, for
 trajectories, python3-h5py-mpi (or python3-h5py).
@@ -31,7 +33,10 @@ import numpy as np
 
 from cell_series import draw_cell_series
 from cells import draw_cell_flow, draw_cell_shapes
+from ensemble import draw_ensemble
+from ensemble_tables import is_ensemble
 from picture import BLUE, GREEN, GREY, ORANGE, RED, Folder, label, scaled
+from trajectories import open_trajectory
 
 
 def draw_profile(folder):
@@ -157,16 +162,6 @@ def draw_series(folder):
     folder.save(figure, "series.png")
 
 
-def open_trajectory(path):
-    import h5py
-
-    try:
-        return h5py.File(path, "r")
-    except OSError:
-        # A program that was killed while it wrote has left its mark; its frames are whole.
-        return h5py.File(path, "r", swmr=True)
-
-
 def draw_frame(axis, file, frame):
     (particles,) = file["particles"].values()
     # Lengths in micrometres.
@@ -231,6 +226,9 @@ def main():
     if len(sys.argv) != 2 or not os.path.isdir(sys.argv[1]):
         sys.exit("usage: plot.py RESULTS\nRESULTS is the folder of results of a run")
     folder = Folder(sys.argv[1])
+    if is_ensemble(folder):
+        draw_ensemble(folder)
+        return
     draw_profile(folder)
     draw_law(folder)
     draw_series(folder)

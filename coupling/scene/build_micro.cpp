@@ -20,9 +20,13 @@ micro::EnsembleParameters build_ensemble_parameters(const Settings& settings, in
   } else {
     p.domain = micro::ShearBox{settings.quantity("micro.aspect_ratio")};
   }
-  p.outline.outline = settings.text("micro.shape.outline") == "ellipse"
-                          ? micro::Outline::ellipse
-                          : micro::Outline::evans_fung;
+  const std::string outline = settings.text("micro.shape.outline");
+  p.outline.outline = outline == "ellipse"    ? micro::Outline::ellipse
+                      : outline == "deflated" ? micro::Outline::deflated
+                                              : micro::Outline::evans_fung;
+  if (p.outline.outline == micro::Outline::deflated) {
+    p.outline.reduced_area = settings.quantity("micro.shape.reduced_area");
+  }
   p.outline.length = settings.quantity("micro.shape.length");
   if (p.outline.outline == micro::Outline::ellipse) {
     p.outline.aspect = settings.quantity("micro.shape.aspect");

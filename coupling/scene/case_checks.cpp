@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "coupling/error.hpp"
+#include "coupling/scene/build_blocks.hpp"
 #include "coupling/scene/build_law.hpp"
 #include "coupling/scene/build_loop.hpp"
 #include "coupling/scene/build_micro.hpp"
@@ -49,7 +50,8 @@ void check_ensemble(const Settings& settings, bool force, FaultList& list) {
   list.attempt("micro.model", [&] {
     const micro::EnsembleParameters parameters = build_ensemble_parameters(settings, 1, force);
     const micro::StepLimit limit = micro::step_limit(parameters);
-    if (parameters.time_step && !parameters.force && *parameters.time_step > limit.time_step) {
+    if (has_explicit_limit(settings) && parameters.time_step && !parameters.force &&
+        *parameters.time_step > limit.time_step) {
       list.add("micro.time_step",
                fmt::format(
                    "{:.4g} s exceeds the limit of the explicit scheme, {:.4g} s = 2 zeta / "

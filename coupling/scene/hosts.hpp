@@ -33,6 +33,9 @@ void run_openfoam(const PreparedRun& run);
 /// A micro scene alone: an ensemble in a shear box or a channel. One process.
 void run_micro(const PreparedRun& run);
 
+/// An ensemble on vectors alone, in a channel. Collective: cells are shared among the ranks.
+void run_ensemble(const PreparedRun& run, const micro::Communicator& communicator);
+
 /// A plasma scene alone. Collective; the least-squares method shares its work among the ranks.
 void run_plasma(const PreparedRun& run, const std::shared_ptr<const micro::Communicator>& ranks);
 

@@ -6,6 +6,7 @@
 
 #include "coupling/config/read_case.hpp"
 #include "coupling/error.hpp"
+#include "coupling/scene/build_blocks.hpp"
 #include "coupling/scene/build_law.hpp"
 #include "coupling/scene/build_loop.hpp"
 #include "coupling/scene/build_micro.hpp"
@@ -27,6 +28,14 @@ namespace fs = std::filesystem;
 std::string describe_ensemble(const Settings& settings) {
   const micro::EnsembleParameters parameters = build_ensemble_parameters(settings, 1, true);
   const micro::StepLimit limit = micro::step_limit(parameters);
+  if (!has_explicit_limit(settings)) {
+    return fmt::format(
+        "micro: {} cells of {} nodes, hematocrit {:g} (area fraction), drag convention \"{}\"\n"
+        "  drag of a node {:.4g} Pa s; implicit steps, the explicit limit of {:.4g} s does not "
+        "hold\n",
+        parameters.cells, parameters.nodes, parameters.hematocrit,
+        settings.text("micro.drag.convention"), limit.drag, limit.time_step);
+  }
   const double step = parameters.time_step.value_or(0.8 * limit.time_step);
   return fmt::format(
       "micro: {} cells of {} nodes, hematocrit {:g} (area fraction), drag convention \"{}\"\n"
@@ -127,7 +136,8 @@ void run_case(const RunOptions& options, micro::Communicator&& communicator, std
   const bool has_cells = is_micro && has_cells_in_plasma(settings);
   const bool is_plasma = is_micro && !has_cells && settings.text("micro.model") == "plasma";
   const bool is_openfoam = !is_micro && settings.text("macro.model") == "openfoam";
-  if (group.size() > 1 && ((is_micro && !is_plasma) || is_openfoam)) {
+  const bool on_vectors = is_micro && runs_on_vectors(settings);
+  if (group.size() > 1 && ((is_micro && !is_plasma && !on_vectors) || is_openfoam)) {
     throw CaseError(
         {{place.file.string(), 0, 0, is_micro ? "scene.kind" : "macro.model",
           fmt::format("this scene runs on one process, but {} were started; {}", group.size(),
@@ -163,6 +173,8 @@ void run_case(const RunOptions& options, micro::Communicator&& communicator, std
     run_cells_in_plasma(run);
   } else if (is_plasma) {
     run_plasma(run, ranks);
+  } else if (on_vectors) {
+    run_ensemble(run, group);
   } else if (is_micro) {
     run_micro(run);
   } else if (is_openfoam) {

@@ -16,6 +16,7 @@
 #include "macro/error.hpp"
 #include "macro/openfoam/floating_point_traps.hpp"
 #include "macro/openfoam/foam_flow_field.hpp"
+#include "macro/openfoam/outline_reader.hpp"
 
 namespace hemoscale::macro {
 namespace {
@@ -248,29 +249,59 @@ std::unique_ptr<Field> OpenedCase::read_field(const std::string& folder,
   return std::make_unique<Field>(header, *mesh_);
 }
 
-}  // namespace
-}  // namespace hemoscale::macro
-
-hemoscale::macro::FlowField<3>* hemoscale_open_case(const std::filesystem::path* folder,
-                                                    const hemoscale::macro::CaseReading* reading) {
-  using namespace hemoscale::macro;
-  check_units(reading->units);
+/// Prepares the process for OpenFOAM and does something with a case folder that has been checked.
+template <class Action>
+auto in_case(const fs::path& folder, const CaseReading& reading, const Action& action) {
+  check_units(reading.units);
   std::error_code failure;
-  const fs::path whole = fs::absolute(*folder, failure).lexically_normal();
+  const fs::path whole = fs::absolute(folder, failure).lexically_normal();
   // without a trailing separator, which would leave an empty name
   const fs::path tidy = whole.has_filename() ? whole : whole.parent_path();
-  check_case(tidy, reading->decomposed);
+  check_case(tidy, reading.decomposed);
   const FloatingPointTrapsOff traps_off;
   const SignalHandlersKept handlers_kept;
   const CaseNamed case_named(tidy);
   const FoamIsQuiet quiet;
   const FoamErrorsThrow errors_throw;
   try {
-    return new OpenedCase(tidy, *reading);
+    return action(tidy);
   } catch (const Foam::error& error) {  // IOerror derives from it
     throw EnvironmentError(tidy.string() +
                            ": OpenFOAM cannot read the case: " + std::string(error.message()));
   }
+}
+
+MeshOutline read_outline(const fs::path& folder, const CaseReading& reading) {
+  const Foam::fileName path(folder.string());
+  Foam::Time time(Foam::Time::controlDictName, path.path(), path.name(), Foam::word("system"),
+                  Foam::word("constant"), false);
+  const Foam::polyMesh mesh(Foam::IOobject(Foam::polyMesh::defaultRegion, time.timeName(), time,
+                                           Foam::IOobject::MUST_READ));
+  return wall_polylines(mesh, reading.units);
+}
+
+}  // namespace
+}  // namespace hemoscale::macro
+
+hemoscale::macro::FlowField<3>* hemoscale_open_case(const std::filesystem::path* folder,
+                                                    const hemoscale::macro::CaseReading* reading) {
+  using namespace hemoscale::macro;
+  return in_case(*folder, *reading, [&](const fs::path& checked) -> FlowField<3>* {
+    return new OpenedCase(checked, *reading);
+  });
+}
+
+hemoscale::macro::MeshOutline* hemoscale_read_outline(
+    const std::filesystem::path* folder, const hemoscale::macro::CaseReading* reading) {
+  using namespace hemoscale::macro;
+  if (reading->decomposed) {
+    throw ParameterError(
+        "outline of an OpenFOAM mesh: every process reads the whole mesh; run "
+        "reconstructParMesh and open the case as one that is not decomposed");
+  }
+  return in_case(*folder, *reading, [&](const fs::path& checked) {
+    return new MeshOutline(read_outline(checked, *reading));
+  });
 }
 
 int hemoscale_openfoam_compiled_version() {

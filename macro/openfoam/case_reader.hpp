@@ -6,6 +6,7 @@
 
 #include "macro/flow_field.hpp"
 #include "macro/openfoam/interpolation.hpp"
+#include "macro/openfoam/mesh_outline.hpp"
 #include "macro/openfoam/mesh_units.hpp"
 
 /// The boundary between the program, which must not link OpenFOAM, and the library that does. It
@@ -36,6 +37,15 @@ extern "C" {
 /// @throws macro::ParameterError    units that are not positive, interpolation that cannot work
 hemoscale::macro::FlowField<3>* hemoscale_open_case(const std::filesystem::path* folder,
                                                     const hemoscale::macro::CaseReading* reading);
+
+/// Reads the boundary of the plane mesh of a case folder. The caller owns the result. Every process
+/// that calls it reads the whole mesh: `decomposed` must be false.
+///
+/// @throws macro::EnvironmentError  the folder is not a case, no mesh; or OpenFOAM's message
+/// @throws macro::ParameterError    units that are not positive, a mesh that is not plane in x and
+/// y
+hemoscale::macro::MeshOutline* hemoscale_read_outline(const std::filesystem::path* folder,
+                                                      const hemoscale::macro::CaseReading* reading);
 
 /// API number of OpenFOAM (1912 for v1912) that the library was compiled against.
 int hemoscale_openfoam_compiled_version();

@@ -6,6 +6,7 @@
 #include "PstreamCombineReduceOps.H"
 #include "fvMesh.H"
 #include "gaussGrad.H"
+#include "leastSquaresGrad.H"
 #include "linear.H"
 #include "macro/error.hpp"
 
@@ -17,9 +18,14 @@ Foam::IOobject unregistered(const char* name, const Foam::fvMesh& mesh) {
                         Foam::IOobject::NO_WRITE, false);
 }
 
-/// Gauss gradient with linear interpolation, without asking the case's fvSchemes.
+/// Without asking the case's fvSchemes: a Gauss gradient with linear interpolation, unless it is to
+/// be one of least squares.
 template <class Type>
-auto gradient_of(const Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh>& field) {
+auto gradient_of(const Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh>& field,
+                 Interpolation interpolation) {
+  if (interpolation == Interpolation::least_squares) {
+    return Foam::fv::leastSquaresGrad<Type>(field.mesh()).calcGrad(field, "hemoscale:gradient");
+  }
   auto gradient =
       Foam::fv::gaussGrad<Type>::gradf(Foam::linearInterpolate(field), "hemoscale:gradient");
   Foam::fv::gaussGrad<Type>::correctBoundaryConditions(field, gradient.ref());
@@ -63,13 +69,14 @@ FoamFlowField::FoamFlowField(const Foam::volVectorField& velocity,
       pressure_(pressure),
       units_(units),
       locator_(std::move(locator)),
-      gradient_(unregistered("hemoscale:gradU", velocity.mesh()), gradient_of(velocity)) {
+      gradient_(unregistered("hemoscale:gradU", velocity.mesh()),
+                gradient_of(velocity, interpolation)) {
   const Foam::fvMesh& mesh = velocity_.mesh();
   if (pressure_) check_kinematic(*pressure_);
   if (interpolation == Interpolation::cell_point) check_cell_size(mesh, units_);
   if (!locator_) locator_ = std::make_shared<PointLocator>(mesh);
 
-  if (interpolation == Interpolation::taylor) {
+  if (interpolation == Interpolation::taylor || interpolation == Interpolation::least_squares) {
     second_.setSize(3);
     for (Foam::direction i = 0; i < 3; ++i) {
       Foam::vector unit(Foam::Zero);
@@ -77,12 +84,12 @@ FoamFlowField::FoamFlowField(const Foam::volVectorField& velocity,
       const Foam::volVectorField row(
           unregistered("hemoscale:gradient", mesh),
           gradient_ & Foam::dimensionedVector("unit", Foam::dimless, unit));
-      second_.set(
-          i, new Foam::volTensorField(unregistered("hemoscale:second", mesh), gradient_of(row)));
+      second_.set(i, new Foam::volTensorField(unregistered("hemoscale:second", mesh),
+                                              gradient_of(row, interpolation)));
     }
     if (pressure_) {
       pressure_gradient_ = std::make_unique<Foam::volVectorField>(
-          unregistered("hemoscale:gradp", mesh), gradient_of(*pressure_));
+          unregistered("hemoscale:gradp", mesh), gradient_of(*pressure_, interpolation));
     }
   } else {
     const Foam::word name = openfoam_name(interpolation);

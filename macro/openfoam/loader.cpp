@@ -121,11 +121,18 @@ OpenFoamLibrary::OpenFoamLibrary(const fs::path& file) : file_(find_library(file
                            " is installed; build HemoScale again");
   }
   open_case_ = symbol<decltype(open_case_)>(library, "hemoscale_open_case", file_);
+  read_outline_ = symbol<decltype(read_outline_)>(library, "hemoscale_read_outline", file_);
 }
 
 std::unique_ptr<FlowField<3>> OpenFoamLibrary::open_case(const fs::path& folder,
                                                          const CaseReading& reading) const {
   return std::unique_ptr<FlowField<3>>(open_case_(&folder, &reading));
+}
+
+MeshOutline OpenFoamLibrary::read_outline(const std::filesystem::path& folder,
+                                          const CaseReading& reading) const {
+  const std::unique_ptr<MeshOutline> outline(read_outline_(&folder, &reading));
+  return *outline;
 }
 
 }  // namespace hemoscale::macro

@@ -29,10 +29,15 @@ class OpenFoamLibrary {
   std::unique_ptr<FlowField<3>> open_case(const std::filesystem::path& folder,
                                           const CaseReading& reading) const;
 
+  /// Reads the boundary of the plane mesh of a case folder.
+  /// @throws EnvironmentError, ParameterError  see hemoscale_read_outline
+  MeshOutline read_outline(const std::filesystem::path& folder, const CaseReading& reading) const;
+
  private:
   std::filesystem::path file_;
   int version_ = 0;
   decltype(&hemoscale_open_case) open_case_ = nullptr;
+  decltype(&hemoscale_read_outline) read_outline_ = nullptr;
 };
 
 }  // namespace hemoscale::macro

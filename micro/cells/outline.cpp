@@ -2,17 +2,19 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 
+#include "micro/cells/rest_shape.hpp"
 #include "micro/error.hpp"
 
 namespace hemoscale::micro {
 namespace {
 
-/// Point of the outline at parameter angle t: x = R cos t. Both outlines are smooth in t.
+/// Point of an outline given by a formula at parameter angle t: x = R cos t. Both are smooth in t.
 Vector<2> point(const OutlineParameters& p, double t) {
   const double radius = 0.5 * p.length;
   const double c = std::cos(t);
@@ -69,10 +71,23 @@ void require_admissible(const OutlineParameters& p, int nodes) {
   }
 }
 
+/// The deflated ring of any size, stretched to the given length.
+std::vector<Vector<2>> deflated_nodes(const OutlineParameters& p, int nodes) {
+  std::vector<Vector<2>> ring =
+      deflate({.perimeter = p.length, .reduced_area = p.reduced_area}, nodes).nodes;
+  const auto [left, right] =
+      std::minmax_element(ring.begin(), ring.end(),
+                          [](const Vector<2>& a, const Vector<2>& b) { return a.x() < b.x(); });
+  const double scale = p.length / (right->x() - left->x());
+  for (Vector<2>& node : ring) node *= scale;
+  return ring;
+}
+
 }  // namespace
 
 std::vector<Vector<2>> outline_nodes(const OutlineParameters& parameters, int nodes) {
   require_admissible(parameters, nodes);
+  if (parameters.outline == Outline::deflated) return deflated_nodes(parameters, nodes);
   constexpr int intervals = 4096;
   constexpr double width = 2 * std::numbers::pi / intervals;
   std::vector<double> length(intervals + 1, 0.0);

@@ -27,10 +27,10 @@ double ring_stiffness(const RingMesh& mesh, const RingMesh& natural_outline,
   return std::max({stretch, bending, area});
 }
 
-double contact_stiffness(const PairPotential& potential, double spacing) {
+double contact_stiffness(const ContactLaw& law, double spacing) {
   constexpr int distances = 200;
   constexpr int offsets = 20;
-  const double cutoff = std::sqrt(potential.cutoff_squared);
+  const double cutoff = cutoff_of(law);
   const int reach = static_cast<int>(cutoff / spacing) + 1;
   double largest = 0;
   for (int i = 0; i <= distances; ++i) {
@@ -42,11 +42,11 @@ double contact_stiffness(const PairPotential& potential, double spacing) {
       for (int k = -reach; k <= reach; ++k) {
         const double a = k * spacing + offset;
         const double s = h * h + a * a;
-        if (s >= potential.cutoff_squared || s <= 0) {
+        if (s >= cutoff * cutoff || s <= 0) {
           continue;
         }
-        const double normal = potential.curvature(s);
-        const double transverse = -potential.force_over_distance(s);
+        const double normal = pair_curvature(law, s);
+        const double transverse = -force_over_distance(law, s);
         across += (normal * h * h + transverse * a * a) / s;
         along += (normal * a * a + transverse * h * h) / s;
       }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "micro/cells/ring_mesh.hpp"
-#include "micro/ensemble/pair_potential.hpp"
+#include "micro/ensemble/contact_law.hpp"
 #include "micro/ensemble/parameters.hpp"
 
 namespace hemoscale::micro {
@@ -39,7 +39,7 @@ double ring_stiffness(const RingMesh& mesh, const RingMesh& natural_outline,
 /// l0; K = max over distance and offset of the sum of U'' cos^2 + (U'/r) sin^2 over the nodes of
 /// the other row that act on one node, along or across the rows; both rows move against each other:
 /// 2 K.
-double contact_stiffness(const PairPotential& potential, double spacing);
+double contact_stiffness(const ContactLaw& law, double spacing);
 
 /// Limit of an ensemble.
 /// @throws ParameterError if a parameter is not admissible

@@ -31,3 +31,7 @@ hemoscale_test(NAME openfoam_viscosity_test LABEL openfoam TIMEOUT 300
 hemoscale_test(NAME openfoam_plugin_test LABEL openfoam TIMEOUT 300
   LIBRARIES hemoscale_openfoam_test_support
   SOURCES ${openfoam_tests}/function_object_test.cpp)
+
+hemoscale_test(NAME openfoam_ensemble_flow_test LABEL openfoam TIMEOUT 300
+  LIBRARIES hemoscale_openfoam_test_support hemoscale_scene hemoscale_config
+  SOURCES openfoam/ensemble_flow/bifurcation_test.cpp)

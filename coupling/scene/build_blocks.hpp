@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "coupling/config/settings.hpp"
+#include "coupling/scene/ensemble_flow.hpp"
+#include "micro/ensemble/blocks/block_ensemble.hpp"
+#include "micro/ensemble/box.hpp"
+
+namespace hemoscale::coupling {
+
+/// Whether the ensemble of a case is advanced on vectors (micro.integrator), and not by the
+/// explicit reference.
+bool runs_on_vectors(const Settings& settings);
+
+/// Whether the step of an ensemble must stay below the limit of explicit schemes.
+bool has_explicit_limit(const Settings& settings);
+
+/// An ensemble on vectors, ready to be started.
+struct BlockScene {
+  micro::blocks::BlockSettings settings;
+  micro::Precision precision = micro::Precision::single;
+  micro::Box box;                  // the plane channel
+  std::vector<std::string> names;  // of the kinds of cells
+  EnsembleFlow flow;
+};
+
+/// Settings of the kinds of cells, forces, flow, scheme and step of a case; nothing is packed.
+///
+/// Default of the time step: explicit schemes 0.8 of their limit; implicit ones 3e-4 over the
+/// largest shear rate of the flow, in which a cell turns by 1.5e-4.
+///
+/// @param case_folder, results  see build_ensemble_flow
+/// @throws CaseError, EnvironmentError of the flow; micro::ParameterError
+BlockScene build_blocks(const Settings& settings, int threads, bool force,
+                        const std::filesystem::path& case_folder,
+                        const std::filesystem::path& results);
+
+/// Initial places of all kinds of cells.
+/// @throws micro::ParameterError for what cannot be packed
+std::vector<micro::EnsembleState> pack_blocks(const Settings& settings, const BlockScene& scene);
+
+}  // namespace hemoscale::coupling

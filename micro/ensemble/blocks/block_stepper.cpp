@@ -1,0 +1,227 @@
+#include "micro/ensemble/blocks/block_stepper.hpp"
+
+#include "micro/ensemble/blocks/block_parts.hpp"
+
+namespace hemoscale::micro::blocks {
+
+/// Finds the displacements of the step before the first, so that the prediction is as good from the
+/// start as later: the iteration of a step, repeated while nothing moves.
+template <class Real>
+void BlockStepper<Real>::Parts::prepare(BlockStore<Real>& store, std::int64_t step, double time,
+                                        double image_offset) {
+  const Real usual = share;
+  share = 1;
+  move = 0;
+  const std::int64_t iterations = predicts ? preparing_iterations : 2;
+  for (std::int64_t k = 0; k < iterations; ++k) {
+    if (copies && k > 0) {
+      copies->send(step + k);
+      copies->receive(step + k, true);
+    }
+    team.run([&](int member) {
+      for (const std::size_t block : blocks_of_thread[static_cast<std::size_t>(member)]) {
+        step_block(store, step + k, time, image_offset, block,
+                   lists[static_cast<std::size_t>(member)],
+                   scratch[static_cast<std::size_t>(member)]);
+      }
+    });
+  }
+  share = usual;
+  move = 1;
+  store.memory_is_new = false;
+  std::fill(travel.begin(), travel.end(), 0.0);
+  list_is_valid = false;
+}
+
+/// Advances all blocks of a thread, and the copies that it carries, from a step to the next. Member
+/// 0 exchanges the copies: it sends when the cells in question are there, receives when blocks that
+/// see copies come up, and looks after the messages in between.
+template <class Real>
+void BlockStepper<Real>::Parts::step_member(BlockStore<Real>& store, std::int64_t step,
+                                            int member) {
+  const std::size_t blocks = store.blocks.size();
+  const auto number = static_cast<std::size_t>(member);
+  const auto wait_at_copies = [&] {
+    for (const std::size_t b : blocks_at_copies) done[b].wait_for(step);
+  };
+  bool is_pending = member == 0 && copies_are_due(step);
+  const auto receive = [&](bool must_wait) {
+    if (!copies->receive(step, must_wait)) return;
+    for (std::size_t g = blocks; g < done.size(); ++g) done[g].set(step);
+    is_pending = false;
+  };
+  if (is_pending) {
+    wait_at_copies();
+    copies->send(step);
+  }
+  for (const std::size_t block : blocks_of_thread[number]) {
+    if (is_pending) {
+      const bool sees_copies = !awaited[block].empty() && awaited[block].back() >= blocks;
+      receive(sees_copies);
+    }
+    for (const std::size_t other : awaited[block]) done[other].wait_for(step);
+    step_block(store, step, time_of(step), offset_of(step), block, lists[number], scratch[number]);
+    done[block].set(step + 1);
+  }
+  if (is_pending) receive(true);
+  if (!copies || copies->come_anew(step + 1)) return;
+  for (const std::size_t group : groups_of_thread[number]) {
+    done[blocks + group].wait_for(step);
+    wait_at_copies();
+    copies->carry(step, group);
+    done[blocks + group].set(step + 1);
+  }
+}
+
+/// Advances from step `first` to `last`. A thread that fails lets go of those that wait for it; the
+/// others end at their next step.
+template <class Real>
+void BlockStepper<Real>::Parts::run_leg(BlockStore<Real>& store, std::int64_t first,
+                                        std::int64_t last) {
+  const std::size_t blocks = store.blocks.size();
+  const bool is_due = copies_are_due(first);
+  for (std::size_t k = 0; k < done.size(); ++k) {
+    done[k].set(k >= blocks && is_due ? first - 1 : first);
+  }
+  std::atomic<bool> failed{false};
+  const auto let_go = [&](std::size_t member) {
+    constexpr std::int64_t never_waited_for = std::numeric_limits<std::int64_t>::max();
+    for (const std::size_t block : blocks_of_thread[member]) done[block].set(never_waited_for);
+    for (const std::size_t group : groups_of_thread[member])
+      done[blocks + group].set(never_waited_for);
+    for (std::size_t g = blocks; g < done.size() && member == 0; ++g) done[g].set(never_waited_for);
+  };
+  team.run([&](int member) {
+    try {
+      for (std::int64_t s = first; s < last && !failed; ++s) {
+        step_member(store, s, member);
+      }
+    } catch (...) {
+      failed = true;
+      let_go(static_cast<std::size_t>(member));
+      throw;
+    }
+    if (failed) let_go(static_cast<std::size_t>(member));
+  });
+}
+
+template <class Real>
+BlockStepper<Real>::BlockStepper(BlockSettings settings)
+    : parts_(std::make_unique<Parts>(std::move(settings))) {}
+template <class Real>
+BlockStepper<Real>::~BlockStepper() = default;
+template <class Real>
+BlockStepper<Real>::BlockStepper(BlockStepper&&) noexcept = default;
+
+template <class Real>
+void BlockStepper<Real>::invalidate() {
+  parts_->list_is_valid = false;
+  parts_->must_size = true;
+}
+template <class Real>
+void BlockStepper<Real>::keep_copies(CopyUpdates updates) {
+  parts_->copies = std::move(updates);
+  invalidate();
+}
+template <class Real>
+const StepCounters& BlockStepper<Real>::counters() const {
+  return parts_->counters;
+}
+template <class Real>
+const BlockSettings& BlockStepper<Real>::settings() const {
+  return parts_->settings;
+}
+template <class Real>
+const std::vector<ContactList>& BlockStepper<Real>::contacts() const {
+  return parts_->lists;
+}
+
+template <class Real>
+StretchWatch BlockStepper<Real>::advance(BlockStore<Real>& store, std::int64_t step,
+                                         std::int64_t count, double start, double& image_offset) {
+  Parts& p = *parts_;
+  const BlockSettings& settings = p.settings;
+  const double dt = settings.time_step;
+  const double rate = settings.flow->largest_shear_rate();
+  if (p.must_size) p.size_arrays(store);
+  bool must_set_flow = true;
+  std::fill(p.longest.begin(), p.longest.end(), 1.0);
+  std::fill(p.shortest.begin(), p.shortest.end(), 1.0);
+  p.first_step = step;
+  p.start = start;
+  p.offsets = {image_offset};
+  p.slide =
+      settings.periodic_y ? dt * settings.height * settings.flow->at({0, 0}, 0).gradient(0, 1) : 0;
+  const std::int64_t last = step + count;
+  const std::int64_t interval = p.copies ? p.copies->interval : 1;
+  StretchWatch watch;
+  while (step < last && watch.finite) {
+    if (step % steps_between_centrings == 0) {
+      p.centre(store, step);
+      must_set_flow = true;
+    }
+    if (must_set_flow) {
+      for (std::size_t b = 0; b < store.blocks.size(); ++b) {
+        p.set_flow(store, step, p.time_of(step), b);
+        if (p.keeps_motion() && store.memory_is_new) p.expect_drift(store, b);
+        p.write_mirror(store, static_cast<std::size_t>(step % 2), b);
+      }
+      must_set_flow = false;
+    }
+    if (!p.list_is_valid) p.build_list(store, step, p.offset_of(step));
+    if (p.keeps_motion() && store.memory_is_new) {
+      p.prepare(store, step, p.time_of(step), p.offset_of(step));
+      p.build_list(store, step, p.offset_of(step));
+    }
+    // As many steps as the list will surely last, judged by the steps so far; but lists are built
+    // only where copies come anew.
+    const std::int64_t to_centring = steps_between_centrings - step % steps_between_centrings;
+    std::int64_t leg = std::min({last - step, to_centring, longest_leg});
+    const double range = p.contact_cutoff + settings.skin / micrometre;
+    const double used_before = p.reach_before;
+    const double left = (range - used_before) / (caution * p.reach_per_step);
+    if (left < static_cast<double>(leg)) {
+      const std::int64_t end = step + static_cast<std::int64_t>(left);
+      const std::int64_t next = (step / interval + 1) * interval;
+      leg = std::min(leg, std::max(end - end % interval, next) - step);
+    }
+    const auto begin = Clock::now();
+    p.set_offsets(step, step + leg);
+    p.run_leg(store, step, step + leg);
+    p.counters.step_seconds += seconds_since(begin);
+    step += leg;
+    p.strain += rate * dt * static_cast<double>(leg);
+    const SharedWatch seen = p.watch_cells(store);
+    const double used = p.reach(seen);
+    p.reach_before = used;
+    p.reach_per_step =
+        std::max((used - used_before) / static_cast<double>(leg), least_reach_per_step);
+    if (used > range) ++p.counters.late_rebuilds;
+    const double ahead = caution * p.reach_per_step * static_cast<double>(interval);
+    if (step % interval == 0 && used + ahead > range) p.list_is_valid = false;
+    watch.finite = seen.finite;
+  }
+  image_offset = p.offset_of(step);
+  for (std::size_t place = 0; place < store.places() && !watch.finite; ++place) {
+    if (p.broken[place] != 0) {
+      watch.worst_cell = store.ids[place];
+      break;
+    }
+  }
+  double worst = 0;
+  for (std::size_t place = 0; place < store.places(); ++place) {
+    const double strain = std::max(p.longest[place], 1 / p.shortest[place]) - 1;
+    if (watch.finite && !(strain <= worst)) {
+      worst = strain;
+      watch.worst_cell = store.ids[place];
+    }
+    watch.largest_stretch = std::max(watch.largest_stretch, p.longest[place]);
+    watch.smallest_stretch = std::min(watch.smallest_stretch, p.shortest[place]);
+  }
+  return watch;
+}
+
+template class BlockStepper<float>;
+template class BlockStepper<double>;
+
+}  // namespace hemoscale::micro::blocks

@@ -1,0 +1,2 @@
+#define HEMOSCALE_VERSION plain
+#include "micro/ensemble/blocks/kernels.inl"
