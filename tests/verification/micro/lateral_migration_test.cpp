@@ -167,7 +167,7 @@ TEST(LateralMigration, ends_a_run_whose_cell_has_left_the_channel) {
 
 // Anisotropic drag breaks the conservation of the mean height, the sign depending on the ratio:
 // cells in a parabola drift outwards if it is larger across the membrane.
-TEST(AnisotropicDrag, moves_a_cell_across_the_flow) {
+TEST(AnisotropicDrag, DISABLED_moves_a_cell_across_the_flow) {
   const auto drift = [](double ratio) {
     BlockCase c = test::relaxing_cell();
     for (double& y : c.initial.front().y) y += 6e-6 - mean_height(c.initial.front());
