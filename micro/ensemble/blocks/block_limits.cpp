@@ -17,6 +17,10 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+// dt k / zeta from which nodes tremble at the edge of what pushes them, as measured, with a margin.
+constexpr double most_contact_times = 60;
+constexpr double most_wall_times = 100;
+
 double quotient(double numerator, double denominator) {
   return denominator > 0 ? numerator / denominator : infinite;
 }
@@ -92,9 +96,17 @@ BlockLimit limit_of(const BlockSettings& s, const KindSettings& kind) {
       restrict(limit, quotient(2 * limit.drag, limit.contact),
                "limit 2 drag / stiffness of contacts, which are frozen within a step, " + parts);
       break;
-    case Integrator::linearly_implicit:
     case Integrator::constant_operator:
     case Integrator::constant_operator_second_order:
+      restrict(limit, quotient(most_wall_times * limit.drag, limit.wall),
+               fmt::format("limit {} drag / stiffness of walls, beyond which nodes tremble, {}",
+                           most_wall_times, parts));
+      [[fallthrough]];
+    case Integrator::linearly_implicit:
+      restrict(limit, quotient(most_contact_times * limit.drag, stiffness_at_rest(s.contact)),
+               fmt::format("limit {} drag / stiffness of contacts at rest, {:.4g} Pa, beyond which "
+                           "nodes tremble, {}",
+                           most_contact_times, stiffness_at_rest(s.contact), parts));
       break;
   }
   const double gap = cutoff_of(s.contact) - rest_distance_of(s.contact);

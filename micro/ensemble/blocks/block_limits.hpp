@@ -20,14 +20,18 @@ namespace hemoscale::micro::blocks {
 /// The implicit integrators are stable for membranes, contacts and walls at any step, as far as
 /// these behave like springs:
 ///
-///   linearly_implicit    tau K_c <= 2 tau D for contacts that share the stiffness D on the
-///   diagonal:
-///                        a mode is multiplied by (1 - q)/(1 + q), q = tau D, at worst. Near -1 for
-///                        stiff contacts: they tremble, and what stiffens within a step may part.
+///   linearly_implicit    K_c <= 2 D for contacts with the stiffness D on the diagonal: a mode is
+///                        multiplied by (1 - q)/(1 + q), q = tau D, at worst; exact for walls
 ///   constant_operator    M >= 3/4 (I + b tau K), see constant_operator_ring.inl: for segments
 ///                        compressed to no less than sqrt(3)/2 of their length
 ///
-/// What they cannot do is to see a contact that begins and ends within a step:
+/// But contacts and walls are springs on one side alone. Nodes that are pushed out of their range
+/// by a step that is too long tremble between both. Measured, with a margin:
+///
+///   implicit integrators dt <= 60 zeta / (-dF/dr of contacts at rest)
+///   constant_operator    dt <= 100 zeta / (stiffness of walls); trembles from 280 on
+///
+/// No integrator sees a contact that begins and ends within a step:
 ///
 ///   all                  dt <= (rc - r0) / (shear rate times diameter of a cell)
 ///

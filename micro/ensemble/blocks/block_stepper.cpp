@@ -173,6 +173,7 @@ StretchWatch BlockStepper<Real>::advance(BlockStore<Real>& store, std::int64_t s
       p.prepare(store, step, p.time_of(step), p.offset_of(step));
       p.build_list(store, step, p.offset_of(step));
     }
+    store.memory_is_new = false;
     // As many steps as the list will surely last, judged by the steps so far; but lists are built
     // only where copies come anew.
     const std::int64_t to_centring = steps_between_centrings - step % steps_between_centrings;

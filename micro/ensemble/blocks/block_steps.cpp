@@ -187,7 +187,7 @@ void BlockStepper<Real>::Parts::step_block(BlockStore<Real>& store, std::int64_t
     store.frames[next][place].y() += moved * migration[place];
   }
   // The flow of the next step: predictions are relative to the frames that it will move.
-  if (changing_flow && move != 0) set_flow(store, step + 1, time + settings.time_step, block);
+  if (changing_flow && move != 0) set_flow(store, step + 1, time_of(step + 1), block);
   write_mirror(store, next, block);
   watch_block(store, block);
 }

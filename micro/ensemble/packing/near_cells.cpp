@@ -55,10 +55,13 @@ NearCells::NearCells(std::vector<Bounds> cells, const CellRoom& room)
   columns_ = bins(extent.x(), reach_.x());
   rows_ = bins(extent.y(), reach_.y());
   origin_ = {room_.length > 0 ? 0 : lowest.x(), room_.repeats_along_y() ? 0 : lowest.y()};
-  const auto size = [](double length, std::int64_t count) {
-    return length > 0 ? length / static_cast<double>(count) : 1.0;
+  // Where nothing repeats, cells in one row have bins as high as they are.
+  const auto size = [](double length, std::int64_t count, bool repeats, double reach) {
+    const double even = length / static_cast<double>(count);
+    return repeats ? even : std::max({even, 2 * reach, std::numeric_limits<double>::min()});
   };
-  size_ = {size(extent.x(), columns_), size(extent.y(), rows_)};
+  size_ = {size(extent.x(), columns_, room_.length > 0, reach_.x()),
+           size(extent.y(), rows_, room_.repeats_along_y(), reach_.y())};
   first_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
   for (std::size_t cell = 0; cell < cells_.size(); ++cell) ++first_[bin_of(cell) + 1];
   for (std::size_t k = 1; k < first_.size(); ++k) first_[k] += first_[k - 1];

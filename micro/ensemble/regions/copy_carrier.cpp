@@ -20,82 +20,15 @@ std::size_t nodes_of(const BlockStore<Real>& store, std::size_t place) {
 }  // namespace
 
 template <class Real>
-std::size_t CopyCarrier<Real>::slip_begin(const BlockStore<Real>& store, std::size_t place) const {
-  return mirror_begin(store, place) - mirror_begin(store, store.places());
-}
-
-template <class Real>
-void CopyCarrier<Real>::remember(BlockStore<Real>& store, std::int64_t step) {
-  remembered_.clear();
-  const auto now = static_cast<std::size_t>(step % 2);
-  for (std::size_t place = store.places(); place < store.ids.size() && slips(); ++place) {
-    Remembered& copy = remembered_[store.ids[place]];
-    const Real* const slip = slips_.data() + slip_begin(store, place);
-    copy.slip.assign(slip, slip + mirror_size(store, place));
-    if (!ends_interval(step)) continue;
-    carry_copy(store, step - 1, place);
-    const Real* const mirror = store.mirror[now].data() + mirror_begin(store, place);
-    copy.carried.assign(mirror, mirror + mirror_size(store, place));
-    copy.frame = store.frames[now][place];
-  }
-}
-
-template <class Real>
-void CopyCarrier<Real>::begin(const BlockStore<Real>& store) {
-  placed_at_ = -1;
-  motions_.assign(store.ids.size() - store.places(), {});
-  if (!slips() || motions_.empty()) return;
-  slips_.assign(store.mirror[0].size() - mirror_begin(store, store.places()), 0);
-  for (std::size_t place = store.places(); place < store.ids.size(); ++place) {
-    const auto found = remembered_.find(store.ids[place]);
-    if (found == remembered_.end()) continue;
-    std::copy(found->second.slip.begin(), found->second.slip.end(),
-              slips_.begin() + static_cast<std::ptrdiff_t>(slip_begin(store, place)));
-  }
-}
-
-template <class Real>
 const char* CopyCarrier<Real>::place_copy(BlockStore<Real>& store, std::int64_t step,
                                           std::size_t place, const char* bytes) {
   const auto now = static_cast<std::size_t>(step % 2);
   Vector<2>& frame = store.frames[now][place];
-  Real* const mirror = store.mirror[now].data() + mirror_begin(store, place);
-  const std::size_t size = mirror_size(store, place);
-  // Slips are means over whole intervals.
-  bool corrects = false;
-  Vector<2> carried_frame = Vector<2>::Zero();
-  if (ends_interval(step)) {
-    corrects = true;
-    carry_copy(store, step - 1, place);
-    carried_.assign(mirror, mirror + size);
-    carried_frame = frame;
-  } else if (const auto found = remembered_.find(store.ids[place]);
-             found != remembered_.end() && !found->second.carried.empty()) {
-    corrects = true;
-    carried_ = found->second.carried;
-    carried_frame = found->second.frame;
-  }
   bytes = read(bytes, frame.data(), 2);
-  bytes = read(bytes, mirror, size);
-  if (corrects) correct_slip(store, place, mirror, frame - carried_frame);
+  bytes =
+      read(bytes, store.mirror[now].data() + mirror_begin(store, place), mirror_size(store, place));
   set_motion(motions_[place - store.places()], frame, step);
   return bytes;
-}
-
-/// @param ahead  [um] of the frame over where it was carried
-template <class Real>
-void CopyCarrier<Real>::correct_slip(const BlockStore<Real>& store, std::size_t place,
-                                     const Real* mirror, const Vector<2>& ahead) {
-  const Real share = static_cast<Real>(1 / static_cast<double>(settings_.interval));
-  const Real ahead_x = static_cast<Real>(ahead.x());
-  const Real ahead_y = static_cast<Real>(ahead.y());
-  Real* const slip = slips_.data() + slip_begin(store, place);
-  const std::size_t n = nodes_of(store, place);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t k = 8 * (i / 4) + i % 4;
-    slip[k] += share * (mirror[k] - carried_[k] + ahead_x);
-    slip[k + 4] += share * (mirror[k + 4] - carried_[k + 4] + ahead_y);
-  }
 }
 
 template <class Real>
@@ -145,9 +78,6 @@ void CopyCarrier<Real>::carry_copy(BlockStore<Real>& store, std::int64_t step,
       to[i + 4] = y + (x * (m.y[0] + m.y[2] * x + m.y[3] * y) + y * (m.y[1] + m.y[4] * y));
     }
   }
-  if (!slips()) return;
-  const Real* const slip = slips_.data() + slip_begin(store, place);
-  for (std::size_t k = 0; k < mirror_size(store, place); ++k) to[k] += slip[k];
 }
 
 template class CopyCarrier<float>;

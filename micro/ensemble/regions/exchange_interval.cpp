@@ -9,7 +9,7 @@ namespace hemoscale::micro::regions {
 namespace {
 
 constexpr double cutoff_over_straying = 80;
-constexpr double nodes_per_contact = 16;
+constexpr double nodes_per_contact = 8;
 constexpr double most_steps = 1000;
 
 double quotient(double numerator, double denominator) {

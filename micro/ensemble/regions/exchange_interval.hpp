@@ -13,10 +13,10 @@ namespace hemoscale::micro::regions {
 ///                    speed of the flow for frozen copies, and for carried ones the largest shear
 ///                    rate times the radius of a cell, the slip of cells that are in each other's
 ///                    way
-///   16 zeta / k0     a contact of every sixteenth node relaxes a whole cell in this time;
+///   8 zeta / k0      a contact of every eighth node relaxes a whole cell in this time;
 ///                    k0 = 2 A r0^2 (rc^2 - r0^2)^2, stiffness of a pair at its rest distance
 ///
-/// The numbers 80 and 16 follow from measured errors, see micro/ensemble/regions/README.md: below
+/// The numbers 80 and 8 follow from measured errors, see micro/ensemble/regions/README.md: below
 /// 0.02 um after 2 s for carried copies. Infinite if nothing moves and nothing touches.
 double longest_copy_age(const blocks::BlockSettings& settings, CopyMotion motion);
 

@@ -49,7 +49,6 @@ void Halo<Real>::find(BlockStore<Real>& store, std::int64_t step,
   }
   std::sort(sent_blocks_.begin(), sent_blocks_.end());
   sent_blocks_.erase(std::unique(sent_blocks_.begin(), sent_blocks_.end()), sent_blocks_.end());
-  carrier_.remember(store, step);
   blocks::set_copies(store, copies);
   for (Peer& peer : peers_) {
     std::size_t out = 0;
@@ -114,7 +113,6 @@ bool Halo<Real>::receive(BlockStore<Real>& store, std::int64_t step, bool must_w
     const char* at = peer.incoming.data();
     for (const std::size_t place : peer.received) at = carrier_.place_copy(store, step, place, at);
   }
-  carrier_.end_placing(step);
   timing_.packing += seconds_since(begin);
   return true;
 }

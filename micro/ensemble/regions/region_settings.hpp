@@ -8,7 +8,7 @@ namespace hemoscale::micro {
 
 /// How an ensemble is spread over ranks.
 struct RegionOptions {
-  regions::CopyMotion motion = regions::CopyMotion::slip;
+  regions::CopyMotion motion = regions::CopyMotion::flow;
   /// Steps between exchanges of copies; 0: by `exchange_interval`. With 1 the bits do not depend on
   /// the number of ranks.
   std::int64_t exchange_interval = 0;

@@ -42,6 +42,12 @@ class SwingingFlow final : public GivenFlow {
   double largest_shear_rate() const override { return 6; }
   double largest_speed() const override { return 1e-4; }
 };
+BlockCase swinging() {
+  BlockCase c = test::crowded_channel();
+  c.settings.flow = std::make_shared<SwingingFlow>();
+  c.initial.front().time = 0.3;
+  return c;
+}
 
 class BlockBits : public testing::TestWithParam<BitsCase> {
  protected:
@@ -85,7 +91,8 @@ TEST_P(BlockBits, do_not_depend_on_the_skin_of_the_list) {
     const BlockEnsemble other = run(c);
     expect_same_bits(other.snapshot(), usual.snapshot());
     // With so small a skin that it lasts for a step or two, the reach of the next can be misjudged.
-    if (skin > 0.1e-6) {
+    // So it can where the flow turns.
+    if (skin > 0.1e-6 && usual.settings().flow->is_steady()) {
       EXPECT_EQ(other.counters().late_rebuilds, 0);
     }
   }
@@ -137,7 +144,6 @@ TEST_P(BlockBits, the_order_of_cells_changes_round_off_alone) {
     }
   }
   const double difference = test::node_difference(usual, permuted);
-  if (std::getenv("KTEST_PRINT")) printf("permuted %s: %.3g m\n", GetParam().name, difference);
   EXPECT_LE(difference, GetParam().precision == Precision::single ? 2e-10 : 1e-18);
 }
 
@@ -148,6 +154,14 @@ INSTANTIATE_TEST_SUITE_P(
         BitsCase{"channel_double", channel, Precision::twofold, Integrator::linearly_implicit},
         BitsCase{"sheared_single", sheared, Precision::single, Integrator::linearly_implicit},
         BitsCase{"sheared_double", sheared, Precision::twofold, Integrator::linearly_implicit},
+        BitsCase{"channel_explicit_single", channel, Precision::single, Integrator::explicit_euler},
+        BitsCase{"sheared_explicit_double", sheared, Precision::twofold,
+                 Integrator::explicit_euler},
+        BitsCase{"swinging_double", swinging, Precision::twofold, Integrator::linearly_implicit},
+        BitsCase{"swinging_constant_operator", swinging, Precision::single,
+                 Integrator::constant_operator},
+        BitsCase{"sheared_inertial", sheared, Precision::twofold, Integrator::inertial},
+        BitsCase{"channel_chebyshev", channel, Precision::single, Integrator::chebyshev},
         BitsCase{"channel_constant_operator", channel, Precision::single,
                  Integrator::constant_operator},
         BitsCase{"sheared_constant_operator_second_order", sheared, Precision::single,

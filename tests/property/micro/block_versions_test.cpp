@@ -107,7 +107,6 @@ TEST(BlockVersions, agree_to_round_off_and_each_has_the_same_bits_for_any_thread
     EXPECT_EQ(one.version, name);
     const double single = largest_difference(one.single, plain.single);
     const double twofold = largest_difference(one.twofold, plain.twofold);
-    if (std::getenv("KTEST_PRINT")) printf("%s %.3g %.3g\n", name.c_str(), single, twofold);
     EXPECT_LE(single, 5e-12) << name;   // [m]
     EXPECT_LE(twofold, 1e-18) << name;  // [m]
     const VersionRun three = run_version(name, 3);

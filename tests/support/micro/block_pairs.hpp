@@ -54,10 +54,13 @@ inline std::vector<blocks::CellRecord> random_cells(const std::vector<blocks::Ce
   return records;
 }
 
+/// Places by which plain loops are exact to the last bit of the positions in double precision.
+using ExactPlace = Eigen::Matrix<long double, 2, 1>;
+
 /// A node of a store: its place in it, its number in the cell, where it is.
 struct StoreNode {
   std::size_t place = 0, node = 0;
-  Vector<2> x = Vector<2>::Zero();  // [um]
+  ExactPlace x = ExactPlace::Zero();  // [um]
 };
 
 /// As contacts see them: in the mirror.
@@ -68,9 +71,9 @@ std::vector<StoreNode> nodes_of(const BlockStore<Real>& store, std::size_t parit
     if (store.ids[place] == blocks::no_cell) continue;
     const Real* const mirror = store.mirror[parity].data() + 8 * store.first_cluster[place];
     for (std::size_t i = 0; i < store.nodes_of_block(place / store.width); ++i) {
-      const Vector<2> offset(static_cast<double>(mirror[8 * (i / 4) + i % 4]),
-                             static_cast<double>(mirror[8 * (i / 4) + 4 + i % 4]));
-      nodes.push_back({place, i, store.frames[parity][place] + offset});
+      const ExactPlace offset(mirror[8 * (i / 4) + i % 4], mirror[8 * (i / 4) + 4 + i % 4]);
+      nodes.push_back(
+          {place, i, store.frames[parity][place].template cast<long double>() + offset});
     }
   }
   return nodes;
@@ -83,20 +86,22 @@ void visit_pairs(const std::vector<StoreNode>& nodes, const Periodicity& p, doub
                  const Visit& visit) {
   for (std::size_t a = 0; a < nodes.size(); ++a) {
     for (std::size_t b = 0; b < nodes.size(); ++b) {
-      const Vector<2> apart = nodes[a].x - nodes[b].x;
-      const auto along = [&](double value, double period, const auto& each) {
+      const ExactPlace apart = nodes[a].x - nodes[b].x;
+      const auto along = [&](long double value, long double period, const auto& each) {
         if (period <= 0) {
           if (std::abs(value) < range) each(0);
           return;
         }
-        const double first = std::ceil((value - range) / period);
-        for (double k = first; k * period < value + range; ++k) each(static_cast<int>(k));
+        const long double first = std::ceil((value - range) / period);
+        for (long double k = first; k * period < value + range; ++k) each(static_cast<int>(k));
       };
       along(apart.y(), p.height, [&](int row) {
         along(apart.x() - row * p.image_offset, p.length, [&](int column) {
           if (nodes[a].place == nodes[b].place && row == 0 && column == 0) return;
-          const Vector<2> d =
-              apart - Vector<2>(column * p.length + row * p.image_offset, row * p.height);
+          const ExactPlace image(column * static_cast<long double>(p.length) +
+                                     row * static_cast<long double>(p.image_offset),
+                                 row * static_cast<long double>(p.height));
+          const Vector<2> d = (apart - image).cast<double>();
           if (d.norm() < range) visit(a, b, d, column, row);
         });
       });

@@ -129,10 +129,6 @@ class BlockImplicitKernel : public testing::Test {
   static void expect_solved(const Membrane& membrane, const Problem& problem) {
     for (const auto* version : test::kernel_versions<Real>()) {
       const double found = error(*version, membrane, problem);
-      if (std::getenv("KTEST_PRINT"))
-        printf("%zu %s %s n %d tau %g contact %g infl %g walls %d: %.3g\n", sizeof(Real),
-               version->name, membrane.name, problem.nodes, problem.times_stiffness,
-               problem.contact, problem.inflation, problem.situation.walls, found);
       EXPECT_LE(found, tolerance) << version->name << ", " << membrane.name << ", " << problem.nodes
                                   << " nodes, tau times stiffness " << problem.times_stiffness
                                   << ", contacts " << problem.contact << ", parallel "

@@ -55,7 +55,7 @@ TEST(StateChecks, see_cells_that_interlock_without_a_node_inside) {
   EXPECT_TRUE(found[0].crosses);
 }
 
-TEST(StateChecks, DISABLED_see_a_cell_wholly_inside_another_of_another_kind) {
+TEST(StateChecks, see_a_cell_wholly_inside_another_of_another_kind) {
   const auto small = outline_nodes({.outline = Outline::ellipse, .length = um, .aspect = 0.5}, 12);
   const std::vector<EnsembleState> kinds = {state_of(human, {{{0, 0}}}),
                                             state_of(small, {{{9 * um, 0}}, {{2.5 * um, 0}}})};

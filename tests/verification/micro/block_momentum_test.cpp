@@ -54,7 +54,6 @@ TEST_P(BlockDrift, across_the_flow_is_round_off) {
     ensemble.advance(GetParam().steps / 20);
     largest = std::max(largest, std::abs(mean_y(ensemble) - before) / height);
   }
-  if (std::getenv("KTEST_PRINT")) printf("drift %s %.3g\n", GetParam().name, largest);
   EXPECT_LE(largest, GetParam().allowed);
 }
 
@@ -82,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // Frames in double precision: a cell a hundred millimetres down the channel moves as one at its
 // beginning.
-TEST(BlockTranslation, DISABLED_along_the_channel_changes_round_off_alone) {
+TEST(BlockTranslation, along_the_channel_changes_round_off_alone) {
   for (const Precision precision : {Precision::single, Precision::twofold}) {
     BlockCase c = bent_cell(Integrator::linearly_implicit);
     BlockEnsemble here = c.make(precision);
@@ -94,9 +93,9 @@ TEST(BlockTranslation, DISABLED_along_the_channel_changes_round_off_alone) {
     auto moved = there.states();
     for (double& x : moved.front().x) x -= far;
     const double difference = test::node_difference(here.states(), moved);
-    if (std::getenv("KTEST_PRINT")) printf("translation %.3g m\n", difference);
-    // 1e5 um in double precision are known to 1.5e-11 um.
-    EXPECT_LE(difference, precision == Precision::single ? 5e-12 : 1e-15);
+    // 1e5 um in double precision are known to 1.5e-11 um, and each of the thousand steps rounds by
+    // half of it at most.
+    EXPECT_LE(difference, precision == Precision::single ? 5e-12 : 7.5e-15);
   }
 }
 
