@@ -89,7 +89,7 @@ std::vector<Parameter> ensemble_scheme_parameters() {
       of_lattice(quantity("micro.packing.orientation", "rad", between(-3.2, 3.2), "0 rad",
                           "Angle of the long axes of the cells on the lattice from the flow.")),
       of_lattice(rows),
-      quantity("micro.list_skin", "m", above(0), "0.15 um",
+      quantity("micro.list_skin", "m", above(0), "0.4 um",
                "Reach of contact lists beyond the cutoff; it decides the cost, never a result."),
   };
   for (const Parameter& parameter : platelet_parameters()) table.push_back(parameter);

@@ -12,6 +12,7 @@ void BlockStepper<Real>::Parts::size_arrays(const BlockStore<Real>& store) {
   velocity.assign(store.ids.size(), Vector<2>::Zero());
   migration.assign(store.places(), 0);
   travel.assign(store.places(), 0);
+  travel_at_pruning.assign(store.places(), 0);
   longest.assign(store.places(), 1);
   shortest.assign(store.places(), 1);
   broken.assign(store.places(), 0);
@@ -40,7 +41,7 @@ void BlockStepper<Real>::Parts::order_blocks(const BlockStore<Real>& store) {
   awaited.assign(blocks, {});
   std::vector<unsigned char> is_awaited(blocks, 0);
   std::vector<unsigned char> is_at_copies(blocks, 0);
-  for (const ContactList& list : lists) {
+  for (const ContactList& list : wide_lists) {
     const std::size_t first = list.first_block;
     const std::size_t last = first + list.first_active.size() - 1;
     for (std::size_t b = first; b < last; ++b) {
@@ -92,9 +93,8 @@ void BlockStepper<Real>::Parts::build_list(const BlockStore<Real>& store, std::i
     found_at = step;
   }
   const auto begin = Clock::now();
-  const double range = contact_cutoff + settings.skin / micrometre;
   ContactSearch<Real> search(store, static_cast<std::size_t>(step % 2), periodicity(image_offset),
-                             range);
+                             wide_range());
   const auto threads = static_cast<std::size_t>(settings.threads);
   team.run([&](int member) {
     const auto m = static_cast<std::size_t>(member);
@@ -104,41 +104,140 @@ void BlockStepper<Real>::Parts::build_list(const BlockStore<Real>& store, std::i
   team.run([&](int member) {
     const auto m = static_cast<std::size_t>(member);
     const auto [first, last] = blocks_of(store.blocks.size(), m);
-    lists[m] = search.find(first, last);
+    wide_lists[m] = search.find(first, last);
+    lists[m].first_block = wide_lists[m].first_block;
+    lists[m].first_neighbour = wide_lists[m].first_neighbour;
+    lists[m].neighbours = wide_lists[m].neighbours;
   });
   list_is_valid = true;
   strain = 0;
   std::fill(travel.begin(), travel.end(), 0.0);
-  reach_before = reach({});
   order_blocks(store);
   ++counters.rebuilds;
   counters.list_seconds += seconds_since(begin);
+  prune_lists(store, step, image_offset);
 }
+
+/// Lists are searched for with the whole skin and pruned, far oftener, to a part of it: the search
+/// looks at boxes of clusters, pruning at the nodes. With copies of cells of other ranks there is
+/// no part: they are not known well enough between exchanges to prune by them. [um]
+template <class Real>
+double BlockStepper<Real>::Parts::inner_range() const {
+  return copies ? wide_range() : contact_cutoff + inner_share * settings.skin / micrometre;
+}
+
+/// Displacements of the frames of all neighbours of a block from those of its cells.
+template <class Real>
+void BlockStepper<Real>::Parts::set_shifts(const BlockStore<Real>& store, std::int64_t step,
+                                           const Periodicity& p, std::size_t block,
+                                           const ContactList& list,
+                                           std::vector<Real>& shifts) const {
+  const std::size_t b = block - list.first_block;
+  const std::size_t first_neighbour = list.first_neighbour[b * width];
+  const std::vector<Vector<2>>& frames = store.frames[static_cast<std::size_t>(step % 2)];
+  shifts.resize(2 * (list.first_neighbour[(b + 1) * width] - first_neighbour));
+  for (std::size_t lane = 0; lane < width; ++lane) {
+    for (std::size_t k = list.first_neighbour[b * width + lane];
+         k < list.first_neighbour[b * width + lane + 1]; ++k) {
+      const Vector<2> shift = shift_of(frames, block * width + lane, list.neighbours[k], p);
+      shifts[2 * (k - first_neighbour)] = static_cast<Real>(shift.x());
+      shifts[2 * (k - first_neighbour) + 1] = static_cast<Real>(shift.y());
+    }
+  }
+}
+
+template <class Real>
+void BlockStepper<Real>::Parts::prune_block(const BlockStore<Real>& store, std::int64_t step,
+                                            const Periodicity& p, std::size_t block,
+                                            std::size_t member) {
+  const ContactList& wide = wide_lists[member];
+  ContactList& list = lists[member];
+  const std::size_t b = block - wide.first_block;
+  std::vector<Real>& shifts = scratch[member].shifts;
+  set_shifts(store, step, p, block, wide, shifts);
+  PruneArguments<Real> g;
+  g.mirror = store.mirror[static_cast<std::size_t>(step % 2)].data();
+  g.active = wide.active.data() + wide.first_active[b];
+  g.active_count = static_cast<std::uint32_t>(wide.first_active[b + 1] - wide.first_active[b]);
+  g.entries = wide.entries.data() + wide.first_entry[b];
+  g.shifts = shifts.data();
+  g.first_cluster = store.first_cluster.data() + block * width;
+  const double reach = inner_range() + rounding_of_distances;
+  g.reach_squared = static_cast<Real>(reach * reach);
+  g.kept_active = list.active.data() + list.first_active.back();
+  g.kept_entries = list.entries.data() + list.first_entry.back();
+  const PruneCounts kept = table.prune(g);
+  list.first_active.push_back(list.first_active.back() + kept.active);
+  list.first_entry.push_back(list.first_entry.back() + kept.entries);
+}
+
+template <class Real>
+void BlockStepper<Real>::Parts::prune_lists(const BlockStore<Real>& store, std::int64_t step,
+                                            double image_offset) {
+  const auto begin = Clock::now();
+  team.run([&](int number) {
+    const auto member = static_cast<std::size_t>(number);
+    const ContactList& wide = wide_lists[member];
+    ContactList& list = lists[member];
+    // One more of each, because an entry is written before it is known whether it stays.
+    list.active.resize(wide.active.size() + 1);
+    list.entries.resize(wide.entries.size() + 1);
+    list.first_active.assign(1, 0);
+    list.first_entry.assign(1, 0);
+    const auto [first, last] = blocks_of(store.blocks.size(), member);
+    const Periodicity p = periodicity(image_offset);
+    for (std::size_t block = first; block < last; ++block) {
+      prune_block(store, step, p, block, member);
+    }
+  });
+  must_prune = false;
+  strain_at_pruning = strain;
+  travel_at_pruning = travel;
+  reach_before = inner_reach({});
+  counters.list_seconds += seconds_since(begin);
+}
+
+namespace {
+
+/// The two longest of travels [um].
+void add_travel(double travel, double& longest, double& second) {
+  if (travel > longest) {
+    second = longest;
+    longest = travel;
+  } else {
+    second = std::max(second, travel);
+  }
+}
+
+}  // namespace
 
 template <class Real>
 SharedWatch BlockStepper<Real>::Parts::watch_cells(const BlockStore<Real>& store) const {
   SharedWatch watch;
-  for (const double t : travel) {
-    if (t > watch.longest_travel) {
-      watch.second_travel = watch.longest_travel;
-      watch.longest_travel = t;
-    } else {
-      watch.second_travel = std::max(watch.second_travel, t);
-    }
-  }
   for (std::size_t place = 0; place < store.places(); ++place) {
+    add_travel(travel[place], watch.longest_travel, watch.second_travel);
+    add_travel(travel[place] - travel_at_pruning[place], watch.longest_since_pruning,
+               watch.second_since_pruning);
     if (broken[place] != 0) watch.finite = false;
   }
   return copies ? copies->join(watch) : watch;
 }
 
 /// Two nodes that are now nearer than rc were nearer than exp(strain) (rc + both travels) when the
-/// list was built, by Gronwall's inequality run backwards; travel counts against the flow at the
+/// list was pruned, by Gronwall's inequality run backwards; travel counts against the flow at the
 /// node, for frames of cells in contact are carried apart by more than the nodes. [um]
 template <class Real>
-double BlockStepper<Real>::Parts::reach(const SharedWatch& watch) const {
+double BlockStepper<Real>::Parts::inner_reach(const SharedWatch& watch) const {
+  return std::exp(strain - strain_at_pruning) *
+         (contact_cutoff + rounding_of_distances + watch.longest_since_pruning +
+          watch.second_since_pruning);
+}
+
+/// The same for nodes that are now nearer than the inner range, since the search. [um]
+template <class Real>
+double BlockStepper<Real>::Parts::wide_reach(const SharedWatch& watch) const {
   return std::exp(strain) *
-         (contact_cutoff + rounding_of_distances + watch.longest_travel + watch.second_travel);
+         (inner_range() + 2 * rounding_of_distances + watch.longest_travel + watch.second_travel);
 }
 
 template struct BlockStepper<float>::Parts;

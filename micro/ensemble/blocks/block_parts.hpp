@@ -26,8 +26,14 @@ inline constexpr double allowed_drift = 0.5;  // [um]
 // A stretch of steps without a look at the list is at most this long.
 inline constexpr std::int64_t longest_leg = 64;
 
-// The motion that is expected of the next leg, over that of the last: contacts may begin.
+// The part of the skin that is left to lists when they are pruned.
+inline constexpr double inner_share = 0.25;
+
+// The motion that is expected of the next leg, over that of the last: contacts may begin. It comes
+// in bursts, which are not forgotten at once, and a leg is not much longer than the one before.
 inline constexpr double caution = 1.5;
+inline constexpr double memory_of_motion = 0.9;
+inline constexpr std::int64_t longest_growth = 2;
 
 // An even number, so that the state is in the same buffer again; soft modes need most.
 inline constexpr std::int64_t preparing_iterations = 100;
@@ -106,12 +112,16 @@ struct BlockStepper<Real>::Parts {
   double contact_cutoff = 0;               // [um]
   PlaneWalls<Real> walls;
   ThreadTeam team;
-  std::vector<ContactList> lists;  // per thread: of its blocks
+  std::vector<ContactList> wide_lists;  // per thread: of its blocks, as they were searched for
+  std::vector<ContactList> lists;       // what was within the inner range when they were pruned
   bool list_is_valid = false;
+  bool must_prune = false;
   bool must_size = true;
-  double strain = 0;                             // [-] of the flow since the list was built
-  double reach_before = 0;                       // [um] that is used of the range of the list
-  double reach_per_step = first_reach_per_step;  // [um] in the last leg
+  double strain = 0;                             // [-] of the flow since the search
+  double strain_at_pruning = 0;                  // [-]
+  double reach_before = 0;                       // [um] that is used of the inner range
+  double reach_per_step = first_reach_per_step;  // [um] in the last legs
+  std::int64_t leg_before = 4;                   // [steps]
   StepCounters counters;
 
   // Per place.
@@ -121,7 +131,8 @@ struct BlockStepper<Real>::Parts {
   AlignedArray<Real> extremes;            // rows of lanes per block, of the last step
   std::vector<Vector<2>> velocity;        // [um per step] of the frames
   std::vector<double> migration;          // [um per step] of the frames, across the flow
-  std::vector<double> travel;             // [um] relative to the flow since the list was built
+  std::vector<double> travel;             // [um] relative to the flow since the search
+  std::vector<double> travel_at_pruning;  // [um]
   std::vector<double> longest, shortest;  // [-] l / l0 in this stretch
   std::vector<unsigned char> broken;      // met a number that is not finite
 
@@ -215,6 +226,7 @@ struct BlockStepper<Real>::Parts {
     }
     scratch.resize(static_cast<std::size_t>(settings.threads));
     lists.resize(scratch.size());
+    wide_lists.resize(scratch.size());
     blocks_of_thread.resize(scratch.size());
   }
 
@@ -232,6 +244,11 @@ struct BlockStepper<Real>::Parts {
   }
   void build_list(const BlockStore<Real>& store, std::int64_t step, double image_offset);
   std::pair<std::size_t, std::size_t> blocks_of(std::size_t blocks, std::size_t member) const;
+  void prune_lists(const BlockStore<Real>& store, std::int64_t step, double image_offset);
+  void prune_block(const BlockStore<Real>& store, std::int64_t step, const Periodicity& p,
+                   std::size_t block, std::size_t member);
+  void set_shifts(const BlockStore<Real>& store, std::int64_t step, const Periodicity& p,
+                  std::size_t block, const ContactList& list, std::vector<Real>& shifts) const;
   void order_blocks(const BlockStore<Real>& store);
   bool is_between_walls(const Real* y, std::size_t nodes, double frame) const;
   void centre(BlockStore<Real>& store, std::int64_t step);
@@ -245,7 +262,10 @@ struct BlockStepper<Real>::Parts {
   void expect_drift(BlockStore<Real>& store, std::size_t block) const;
   void watch_block(const BlockStore<Real>& store, std::size_t block);
   SharedWatch watch_cells(const BlockStore<Real>& store) const;
-  double reach(const SharedWatch& watch) const;
+  double inner_range() const;
+  double wide_range() const { return contact_cutoff + settings.skin / micrometre; }
+  double inner_reach(const SharedWatch& watch) const;
+  double wide_reach(const SharedWatch& watch) const;
   double time_of(std::int64_t step) const {
     return start + settings.time_step * static_cast<double>(step);
   }

@@ -61,7 +61,8 @@ struct BlockSettings {
   double time_step = 0;  // [s]
   bool force = false;    // a time step beyond the limits of block_limits.hpp
   LateralMigration migration;
-  double skin = 0.15e-6;  // [m] by which lists reach beyond the cutoff; no result depends on it
+  double skin = 0.4e-6;  // [m] by which contacts are searched beyond the cutoff; lists are pruned
+                         // to a part of it between searches; no result depends on it
   int threads = 1;
 };
 

@@ -173,12 +173,14 @@ StretchWatch BlockStepper<Real>::advance(BlockStore<Real>& store, std::int64_t s
       p.prepare(store, step, p.time_of(step), p.offset_of(step));
       p.build_list(store, step, p.offset_of(step));
     }
+    if (p.must_prune) p.prune_lists(store, step, p.offset_of(step));
     store.memory_is_new = false;
     // As many steps as the list will surely last, judged by the steps so far; but lists are built
     // only where copies come anew.
     const std::int64_t to_centring = steps_between_centrings - step % steps_between_centrings;
-    std::int64_t leg = std::min({last - step, to_centring, longest_leg});
-    const double range = p.contact_cutoff + settings.skin / micrometre;
+    std::int64_t leg =
+        std::min({last - step, to_centring, longest_leg, longest_growth * p.leg_before});
+    const double range = p.inner_range();
     const double used_before = p.reach_before;
     const double left = (range - used_before) / (caution * p.reach_per_step);
     if (left < static_cast<double>(leg)) {
@@ -193,13 +195,17 @@ StretchWatch BlockStepper<Real>::advance(BlockStore<Real>& store, std::int64_t s
     step += leg;
     p.strain += rate * dt * static_cast<double>(leg);
     const SharedWatch seen = p.watch_cells(store);
-    const double used = p.reach(seen);
+    const double used = p.inner_reach(seen);
     p.reach_before = used;
-    p.reach_per_step =
-        std::max((used - used_before) / static_cast<double>(leg), least_reach_per_step);
+    p.reach_per_step = std::max({(used - used_before) / static_cast<double>(leg),
+                                 memory_of_motion * p.reach_per_step, least_reach_per_step});
+    p.leg_before = leg;
     if (used > range) ++p.counters.late_rebuilds;
     const double ahead = caution * p.reach_per_step * static_cast<double>(interval);
-    if (step % interval == 0 && used + ahead > range) p.list_is_valid = false;
+    if (step % interval == 0 && used + ahead > range) {
+      p.must_prune = !p.copies && p.wide_reach(seen) < p.wide_range();
+      p.list_is_valid = p.must_prune;
+    }
     watch.finite = seen.finite;
   }
   image_offset = p.offset_of(step);

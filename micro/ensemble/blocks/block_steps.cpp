@@ -123,18 +123,7 @@ void BlockStepper<Real>::Parts::step_block(BlockStore<Real>& store, std::int64_t
   const std::size_t first_place = block * width;
   const std::size_t b = block - list.first_block;
   if (list.first_active[b + 1] > list.first_active[b]) {
-    const Periodicity p = periodicity(image_offset);
-    const std::size_t first_neighbour = list.first_neighbour[b * width];
-    s.shifts.resize(2 * (list.first_neighbour[(b + 1) * width] - first_neighbour));
-    for (std::size_t lane = 0; lane < width; ++lane) {
-      for (std::size_t k = list.first_neighbour[b * width + lane];
-           k < list.first_neighbour[b * width + lane + 1]; ++k) {
-        const Vector<2> shift =
-            shift_of(store.frames[parity], first_place + lane, list.neighbours[k], p);
-        s.shifts[2 * (k - first_neighbour)] = static_cast<Real>(shift.x());
-        s.shifts[2 * (k - first_neighbour) + 1] = static_cast<Real>(shift.y());
-      }
-    }
+    set_shifts(store, step, periodicity(image_offset), block, list, s.shifts);
     PairArguments<Real> g = pairs[kind];
     g.mirror = store.mirror[parity].data();
     g.active = list.active.data() + list.first_active[b];

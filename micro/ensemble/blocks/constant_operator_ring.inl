@@ -66,22 +66,25 @@ struct Substitution {
   }
 };
 
-// Membrane, flow and walls at the prediction: columns of all nodes, and sums over them.
+// What the columns are made of, kept in the places that they will take.
 template <class V>
-struct OperatorSums {
-  V gp = V{};  // g'p
-  V pr = V{};  // p'r
-  V ph = V{};  // p'h
-  V pw = V{};  // p'w
+struct OperatorShape {
+  OperatorNode<V>* nodes;
+  HEMOSCALE_LANES V& x(int i) const { return nodes[i].h[0]; }  // [um] predicted
+  HEMOSCALE_LANES V& y(int i) const { return nodes[i].h[1]; }
+  HEMOSCALE_LANES V& ex(int i) const { return nodes[i].g[0]; }  // [um] to the next node
+  HEMOSCALE_LANES V& ey(int i) const { return nodes[i].g[1]; }
+  HEMOSCALE_LANES V& q(int i) const { return nodes[i].pivot; }    // [1/um] inverse length
+  HEMOSCALE_LANES V& moment(int i) const { return nodes[i].m1; }  // [um^2] of bending
 };
 
-template <class Real, class Bending, bool parallel_flow, bool walls, class V>
-HEMOSCALE_LANES void set_columns(const BlockArguments<Real>& g, OperatorNode<V>* nodes,
-                                 OperatorSums<V>& sums) {
+// Segments and bending moments at the prediction. Long chains of operations, one per node: a loop
+// of its own, so short that many nodes are under way at once.
+template <class Real, class Bending, class V>
+HEMOSCALE_LANES void set_shape(const BlockArguments<Real>& g, const OperatorShape<V>& shape) {
   constexpr int width = Lanes<Real>::width;
   const RingTables<Real>& ring = *g.ring;
   const int n = ring.nodes;
-  const Real b = g.share;
   const V drift_x = load<V>(g.drift);
   const V drift_y = load<V>(g.drift + width);
   const auto x_of = [&](int i) {
@@ -90,100 +93,107 @@ HEMOSCALE_LANES void set_columns(const BlockArguments<Real>& g, OperatorNode<V>*
   const auto y_of = [&](int i) {
     return load<V>(g.y + i * width) + (load<V>(g.memory_y + i * width) - drift_y);
   };
+  V x = x_of(0);
+  V y = y_of(0);
+  const V first_x = x;
+  const V first_y = y;
+  Segment<V> before = segment<V>(x_of(n - 1), y_of(n - 1), x, y);
+  const auto node = [&](int a, V next_x, V next_y) {
+    const Segment<V> s = segment<V>(x, y, next_x, next_y);
+    shape.x(a) = x;
+    shape.y(a) = y;
+    shape.ex(a) = s.ex;
+    shape.ey(a) = s.ey;
+    shape.q(a) = s.q;
+    shape.moment(a) =
+        Bending::moment(half_tangent(before, s), ring.bending[a], ring.natural[a]).value;
+    before = s;
+    x = next_x;
+    y = next_y;
+  };
+  for (int a = 0; a + 1 < n; ++a) node(a, x_of(a + 1), y_of(a + 1));
+  node(n - 1, first_x, first_y);
+}
+
+// Membrane, flow and walls at the prediction: columns of all nodes, and sums over them.
+template <class V>
+struct OperatorSums {
+  V pr = V{};  // p'r
+  V ph = V{};  // p'h
+};
+
+template <class Real, bool parallel_flow, bool walls, class V>
+HEMOSCALE_LANES void set_columns(const BlockArguments<Real>& g, const OperatorShape<V>& shape,
+                                 OperatorSums<V>& sums) {
+  constexpr int width = Lanes<Real>::width;
+  const RingTables<Real>& ring = *g.ring;
+  const int n = ring.nodes;
+  const Real b = g.share;
+  const V drift_x = load<V>(g.drift);
+  const V drift_y = load<V>(g.drift + width);
   const V one = V{} + 1;
   const V half_pressure =
       static_cast<Real>(-0.5) * (ring.area * (load<V>(g.area) - ring.rest_area));
   const FlowRows<V, parallel_flow> flow(g.flow);
   const V frame_y = walls ? load<V>(g.frame_y) : V{};
-  V xi = x_of(0);
-  V yi = y_of(0);
-  V xb = x_of(1);
-  V yb = y_of(1);
-  const V xl = x_of(n - 1);
-  const V yl = y_of(n - 1);
-  Segment<V> s = segment<V>(xi, yi, xb, yb);
-  const Segment<V> closing = segment<V>(xl, yl, xi, yi);
-  const V first_moment =
-      Bending::moment(half_tangent(closing, s), ring.bending[0], ring.natural[0]).value;
-  V moment = first_moment;
+  // Pull of a segment on its first node.
+  const auto pull = [&](int a, V ex, V ey, V q, V moment, V next_moment, V& fx, V& fy) {
+    const V ratio = ring.stretch * (ring.inverse_rest[a] - q);
+    const V across = (moment - next_moment) * (q * q);
+    fx = ratio * ex - across * ey;
+    fy = ratio * ey + across * ex;
+  };
+  const V first_moment = shape.moment(0);
+  V ex0 = shape.ex(n - 1);
+  V ey0 = shape.ey(n - 1);
   V fx0, fy0;
-  {
-    const Segment<V> before = segment<V>(x_of(n - 2), y_of(n - 2), xl, yl);
-    const V last_moment =
-        Bending::moment(half_tangent(before, closing), ring.bending[n - 1], ring.natural[n - 1])
-            .value;
-    const V ratio = ring.stretch * (ring.inverse_rest[n - 1] - closing.q);
-    const V across = (last_moment - first_moment) * closing.q;
-    fx0 = ratio * closing.ex - across * closing.ty;
-    fy0 = ratio * closing.ey + across * closing.tx;
-  }
-  V ex0 = closing.ex;
-  V ey0 = closing.ey;
+  pull(n - 1, ex0, ey0, shape.q(n - 1), shape.moment(n - 1), first_moment, fx0, fy0);
+  V moment = first_moment;
   V shortened = one;
   V stretched = one;
-  V lengths = V{};
-  V turns = V{};
-  const auto node = [&](int a, const Segment<V>& next, V next_moment) {
-    const V shortening = s.q * ring.rest[a];
+  const auto node = [&](int a, V next_moment) {
+    const V x = shape.x(a);
+    const V y = shape.y(a);
+    const V ex = shape.ex(a);
+    const V ey = shape.ey(a);
+    const V q = shape.q(a);
+    const V shortening = q * ring.rest[a];
     shortened = larger(shortened, shortening);
     stretched = smaller(stretched, shortening);
-    const V ratio = ring.stretch * (ring.inverse_rest[a] - s.q);
-    const V across = (moment - next_moment) * s.q;
-    const V fx = ratio * s.ex - across * s.ty;
-    const V fy = ratio * s.ey + across * s.tx;
-    const V turn_x = s.ex - ex0;
-    const V turn_y = s.ey - ey0;
-    lengths += s.ex * s.ex + s.ey * s.ey;
-    turns += turn_x * turn_x + turn_y * turn_y;
+    V fx, fy;
+    pull(a, ex, ey, q, moment, next_moment, fx, fy);
     V vx, vy;
-    flow.velocity(xi, yi, vx, vy);
+    flow.velocity(x, y, vx, vy);
     V load_y = load<V>(g.force_y + a * width) + vy;
     V c = load<V>(g.stiffness_xx + a * width);
-    if constexpr (walls) add_walls(g.walls, frame_y + yi, load_y, c);
-    const V arm_x = ey0 + s.ey;
-    const V arm_y = ex0 + s.ex;
+    if constexpr (walls) add_walls(g.walls, frame_y + y, load_y, c);
+    const V arm_x = ey0 + ey;
+    const V arm_y = ex0 + ex;
     const V rx = b * (load<V>(g.force_x + a * width) + vx + (fx - fx0) + half_pressure * arm_x -
                       (load<V>(g.memory_x + a * width) - drift_x));
     const V ry = b * (load_y + (fy - fy0) - half_pressure * arm_y -
                       (load<V>(g.memory_y + a * width) - drift_y));
     const V resist = one + b * c;
-    const V gx = static_cast<Real>(0.5) * arm_x;
-    const V gy = static_cast<Real>(-0.5) * arm_y;
-    const V hx = -resist * yi;
-    const V hy = resist * xi;
-    sums.gp += gy * xi - gx * yi;
-    sums.pr += ry * xi - rx * yi;
-    sums.ph += hy * xi - hx * yi;
-    nodes[a].r[0] = rx;
-    nodes[a].r[1] = ry;
-    nodes[a].g[0] = gx;
-    nodes[a].g[1] = gy;
-    nodes[a].h[0] = hx;
-    nodes[a].h[1] = hy;
-    nodes[a].resist = resist;
+    const V hx = -resist * y;
+    const V hy = resist * x;
+    sums.pr += ry * x - rx * y;
+    sums.ph += hy * x - hx * y;
+    OperatorNode<V>& to = shape.nodes[a];
+    to.r[0] = rx;
+    to.r[1] = ry;
+    to.g[0] = static_cast<Real>(0.5) * arm_x;
+    to.g[1] = static_cast<Real>(-0.5) * arm_y;
+    to.h[0] = hx;
+    to.h[1] = hy;
+    to.resist = resist;
     fx0 = fx;
     fy0 = fy;
-    ex0 = s.ex;
-    ey0 = s.ey;
+    ex0 = ex;
+    ey0 = ey;
     moment = next_moment;
-    s = next;
-    xi = xb;
-    yi = yb;
   };
-  for (int a = 0; a + 2 < n; ++a) {
-    const V xc = x_of(a + 2);
-    const V yc = y_of(a + 2);
-    const Segment<V> next = segment<V>(xb, yb, xc, yc);
-    const V next_moment =
-        Bending::moment(half_tangent(s, next), ring.bending[a + 1], ring.natural[a + 1]).value;
-    node(a, next, next_moment);
-    xb = xc;
-    yb = yc;
-  }
-  node(n - 2, closing,
-       Bending::moment(half_tangent(s, closing), ring.bending[n - 1], ring.natural[n - 1]).value);
-  node(n - 1, closing, first_moment);
-  sums.pw = b * (ring.largest_stretch * lengths + ring.largest_bending * turns);
+  for (int a = 0; a + 1 < n; ++a) node(a, shape.moment(a + 1));
+  node(n - 1, first_moment);
   store(g.extremes, stretched);
   store(g.extremes + width, shortened);
 }
@@ -252,8 +262,10 @@ HEMOSCALE_LANES void constant_operator_ring(const BlockArguments<Real>& g) {
   const V zero = V{};
   const V one = zero + 1;
   auto* const nodes = reinterpret_cast<OperatorNode<V>*>(g.scratch);
+  const OperatorShape<V> shape{nodes};
+  set_shape<Real, Bending>(g, shape);
   OperatorSums<V> sums;
-  set_columns<Real, Bending, parallel_flow, walls>(g, nodes, sums);
+  set_columns<Real, parallel_flow, walls>(g, shape, sums);
   V border[3];
   Substitution<V> rows_g, rows_h, rows_r;
   V gg = eliminate(o1, o2, diagonal, n, nodes, border, rows_g);
@@ -290,11 +302,13 @@ HEMOSCALE_LANES void constant_operator_ring(const BlockArguments<Real>& g) {
     hr += rows_h.r1[k] * zr1[k] + rows_h.r2[k] * zr2[k];
   }
   // Woodbury's formula for the two terms of rank one. With q = A^-1 w = p - A^-1 h:
-  //   g'q = g'p - g'A^-1 h,   w'A^-1 r = p'r - h'A^-1 r,   w'q - p'w = h'A^-1 h - p'h.
+  //   g'q = -g'A^-1 h,   w'A^-1 r = p'r - h'A^-1 r,   w'q - p'w = h'A^-1 h - p'h,
+  //
+  // for g'p = 0: rotation changes no area.
   // The area part is scaled by the modulus, so that none is possible.
   const Real area = b * ring.area;
   const V t11 = one + area * gg;
-  const V t12 = sums.gp - gh;
+  const V t12 = -gh;
   const V t22 = hh - sums.ph;
   const V t1 = area * gr;
   const V t2 = sums.pr - hr;

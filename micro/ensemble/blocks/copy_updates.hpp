@@ -9,8 +9,10 @@ namespace hemoscale::micro::blocks {
 
 /// What the ranks must know of each other's cells to decide together how long lists last.
 struct SharedWatch {
-  double longest_travel = 0;  // [um] of any cell relative to the flow since the list was built
+  double longest_travel = 0;  // [um] of any cell relative to the flow since contacts were searched
   double second_travel = 0;   // [um] of another cell
+  double longest_since_pruning = 0;  // [um] the same since lists were pruned
+  double second_since_pruning = 0;   // [um]
   bool finite = true;
 };
 

@@ -143,6 +143,23 @@ struct PairArguments {
   int width = 0;
 };
 
+/// A list of a block, as in PairArguments, and room for what is kept of it.
+template <class Real>
+struct PruneArguments {
+  const Real* mirror = nullptr;
+  const ActiveCluster* active = nullptr;
+  std::uint32_t active_count = 0;
+  const ClusterEntry* entries = nullptr;
+  const Real* shifts = nullptr;
+  const std::uint32_t* first_cluster = nullptr;
+  Real reach_squared = 0;  // [um^2]
+  ActiveCluster* kept_active = nullptr;
+  ClusterEntry* kept_entries = nullptr;
+};
+struct PruneCounts {
+  std::uint32_t active = 0, entries = 0;
+};
+
 template <class Real>
 struct MirrorArguments {
   int nodes = 0;
@@ -187,6 +204,7 @@ struct Kernels {
   Pairs pairs[pair_forms] = {};
   Pairs stiff_pairs[pair_forms] = {};    // with the stiffness
   Pairs bounded_pairs[pair_forms] = {};  // with a bound on it, in ..._xx
+  PruneCounts (*prune)(const PruneArguments<Real>&) = nullptr;
   void (*mirror)(const MirrorArguments<Real>&) = nullptr;
   int (*near_boxes)(const BoxArguments&) = nullptr;  // @returns how many hits
   Step implicit_step[kernel_choices] = {};

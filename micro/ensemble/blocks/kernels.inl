@@ -27,6 +27,7 @@ namespace {
 #include "micro/ensemble/blocks/exponential.inl"
 #include "micro/ensemble/blocks/pair_laws.inl"
 #include "micro/ensemble/blocks/pair_kernel.inl"
+#include "micro/ensemble/blocks/prune_kernel.inl"
 #include "micro/ensemble/blocks/mirror_kernel.inl"
 #include "micro/ensemble/blocks/box_kernel.inl"
 // clang-format on
@@ -38,6 +39,10 @@ int near_boxes(const BoxArguments& g) {
 template <class Real, class Law, PairStiffness stiffness>
 void pairs(const PairArguments<Real>& g) {
   contact_forces<Real, Law, stiffness>(g);
+}
+template <class Real>
+PruneCounts prune(const PruneArguments<Real>& g) {
+  return prune_entries<Real>(g);
 }
 template <class Real>
 void mirror(const MirrorArguments<Real>& g) {
@@ -94,6 +99,7 @@ constexpr Kernels<Real> make_table(const char* name) {
   set_pairs<Real, PolynomialLaw>(table, polynomial_form);
   set_pairs<Real, MorseLaw>(table, morse_form);
   set_pairs<Real, LennardJonesLaw>(table, lennard_jones_form);
+  table.prune = prune<Real>;
   table.mirror = mirror<Real>;
   table.near_boxes = near_boxes;
   set_steps<Real, TurningAngle, false, false>(table, false);

@@ -61,7 +61,7 @@ struct PairLanes {
 #endif
 
 template <class Real>
-HEMOSCALE_LANES void add_to_lane(Real* row, int width, int count, Quad<Real> v) {
+HEMOSCALE_LANES void set_lane(Real* row, int width, int count, Quad<Real> v) {
   for (int i = 0; i < count; ++i) row[i * width] = v[i];
 }
 
@@ -75,15 +75,15 @@ template <PairStiffness stiffness, class Real>
 HEMOSCALE_LANES void collect(const PairArguments<Real>& g, size_t place, int count, Quad<Real> fx,
                              Quad<Real> fy, Quad<Real> kxx, Quad<Real> kxy, Quad<Real> kyy) {
   constexpr int width = Lanes<Real>::width;
-  add_to_lane<Real>(g.force_x + place, width, count, fx);
-  add_to_lane<Real>(g.force_y + place, width, count, fy);
+  set_lane<Real>(g.force_x + place, width, count, fx);
+  set_lane<Real>(g.force_y + place, width, count, fy);
   if constexpr (stiffness == PairStiffness::bound) {
-    add_to_lane<Real>(g.stiffness_xx + place, width, count, 4 * kxx);
+    set_lane<Real>(g.stiffness_xx + place, width, count, 4 * kxx);
   }
   if constexpr (stiffness == PairStiffness::diagonal_blocks) {
-    add_to_lane<Real>(g.stiffness_xx + place, width, count, kxx);
-    add_to_lane<Real>(g.stiffness_xy + place, width, count, kxy);
-    add_to_lane<Real>(g.stiffness_yy + place, width, count, kyy);
+    set_lane<Real>(g.stiffness_xx + place, width, count, kxx);
+    set_lane<Real>(g.stiffness_xy + place, width, count, kxy);
+    set_lane<Real>(g.stiffness_yy + place, width, count, kyy);
   }
 }
 

@@ -186,7 +186,8 @@ SharedWatch RegionRun<Real>::join(const SharedWatch& own) {
   double values[3] = {own.longest_travel, own.second_travel, own.finite ? 0.0 : 1.0};
   messages_.reduce(values, 1, reduction_->type, reduction_->operation);
   counters_.agreement_seconds += seconds_since(begin);
-  return {values[0], values[1], values[2] == 0};
+  // With copies, lists are pruned when contacts are searched for and at no other time.
+  return {values[0], values[1], values[0], values[1], values[2] == 0};
 }
 
 template <class Real>
