@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 
 #include "micro/error.hpp"
 
@@ -12,6 +13,9 @@ namespace {
 
 // Cells are moved back into the box long before they are this many boxes away.
 constexpr double furthest_image = 100;
+
+// Nodes whose partners one thread finds at a time.
+constexpr std::size_t nodes_of_part = 4096;
 
 [[noreturn]] void throw_torn(std::size_t node, const EnsembleState& state) {
   throw NumericalError(fmt::format(
@@ -63,7 +67,7 @@ void NeighbourList::place_nodes(const EnsembleState& state, const Box& box, doub
 }
 
 void NeighbourList::find_partners(std::size_t node, const EnsembleState& state, const Box& box,
-                                  double range) {
+                                  double range, std::vector<Neighbour>& found) const {
   const Placed& own = placed_[node];
   const std::size_t own_cell = node / state.nodes;
   const int own_row = bin(own.y, box.height, rows_);
@@ -112,7 +116,7 @@ void NeighbourList::find_partners(std::size_t node, const EnsembleState& state, 
           if (!Image::is_known(column, row)) {
             throw_torn(node, state);
           }
-          entries_.push_back({other.node, Image::pack(column, row)});
+          found.push_back({other.node, Image::pack(column, row)});
         }
       }
     }
@@ -128,15 +132,34 @@ void NeighbourList::build(const EnsembleState& state, const Box& box, double ran
     }
   }
   place_nodes(state, box, range);
-  first_.resize(state.x.size() + 1);
-  entries_.clear();
-  first_[0] = 0;
-  for (std::size_t i = 0; i < state.x.size(); ++i) {
-    find_partners(i, state, box, range);
-    std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(first_[i]), entries_.end(),
-              [](const Neighbour& a, const Neighbour& b) { return a.node < b.node; });
-    first_[i + 1] = entries_.size();
+  const std::size_t total = state.x.size();
+  const std::size_t parts = (total + nodes_of_part - 1) / nodes_of_part;
+  first_.assign(total + 1, 0);
+  found_.resize(std::max(found_.size(), parts));
+  std::vector<std::exception_ptr> failures(parts);
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t part = 0; part < parts; ++part) {
+    std::vector<Neighbour>& found = found_[part];
+    found.clear();
+    try {
+      for (std::size_t i = part * nodes_of_part; i < std::min(total, (part + 1) * nodes_of_part);
+           ++i) {
+        const auto before = static_cast<std::ptrdiff_t>(found.size());
+        find_partners(i, state, box, range, found);
+        std::sort(found.begin() + before, found.end(),
+                  [](const Neighbour& a, const Neighbour& b) { return a.node < b.node; });
+        first_[i + 1] = found.size() - static_cast<std::size_t>(before);
+      }
+    } catch (...) {
+      failures[part] = std::current_exception();
+    }
   }
+  entries_.clear();
+  for (std::size_t part = 0; part < parts; ++part) {
+    if (failures[part]) std::rethrow_exception(failures[part]);
+    entries_.insert(entries_.end(), found_[part].begin(), found_[part].end());
+  }
+  for (std::size_t i = 0; i < total; ++i) first_[i + 1] += first_[i];
 }
 
 }  // namespace hemoscale::micro

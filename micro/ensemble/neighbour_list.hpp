@@ -18,7 +18,8 @@ struct Neighbour {
 /// Full neighbour list: for every node, the nodes of other cells, or of other images of its own
 /// cell, within a range. Each node owns its sum, hence threads never write to the same place. The
 /// partners of a node are in the order of their numbers: partners beyond the cutoff add exact
-/// zeros, so the sum does not depend on when, or with which range, the list was built.
+/// zeros, so the sum does not depend on when, or with which range, the list was built. Threads
+/// share the search; the list does not depend on their number.
 class NeighbourList {
  public:
   /// Rebuild for the present positions; a grid of bins makes the cost proportional to the nodes.
@@ -33,10 +34,12 @@ class NeighbourList {
 
  private:
   void place_nodes(const EnsembleState& state, const Box& box, double range);
-  void find_partners(std::size_t node, const EnsembleState& state, const Box& box, double range);
+  void find_partners(std::size_t node, const EnsembleState& state, const Box& box, double range,
+                     std::vector<Neighbour>& found) const;
 
   std::vector<std::size_t> first_;
   std::vector<Neighbour> entries_;
+  std::vector<std::vector<Neighbour>> found_;  // by parts of the nodes
 
   // Scratch: nodes moved into the box and sorted into bins.
   struct Placed {

@@ -17,3 +17,9 @@ hemoscale_test(NAME ensemble_blocks_stability LABEL stability LIBRARIES hemoscal
   stability/micro/block_stability_test.cpp)
 hemoscale_test(NAME ensemble_blocks_restart LABEL restart LIBRARIES hemoscale_micro SOURCES
   restart/micro/block_restart_test.cpp)
+
+# Figures of micro/ensemble/blocks/README.md; not part of the tests, nor of `all`.
+add_executable(benchmark_ensemble_speed EXCLUDE_FROM_ALL benchmark/ensemble_speed/ensemble_speed.cpp)
+set_target_properties(benchmark_ensemble_speed PROPERTIES
+  RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+target_link_libraries(benchmark_ensemble_speed PRIVATE hemoscale_micro hemoscale_options fmt::fmt)
