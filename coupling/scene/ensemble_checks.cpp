@@ -71,11 +71,12 @@ void check_options(const Settings& settings, FaultList& list) {
                          "{}; choose one of them, or 1",
                          ratio, quoted_integrator(settings)));
   }
-  for (const char* key : {"micro.migration.wall_lift", "micro.migration.shear_lift"}) {
+  for (const char* key : {"micro.migration.wall_lift", "micro.migration.shear_lift",
+                          "micro.migration.shear_diffusion"}) {
     if (!settings.has(key) || !(settings.quantity(key) > 0)) continue;
     if (settings.quantity("micro.platelets.per_cell") > 0) {
       list.add(key,
-               "would lift platelets as if they were red cells; choose 0, or "
+               "is a law of red cells and would move platelets too; choose 0, or "
                "micro.platelets.per_cell = 0");
     }
   }
