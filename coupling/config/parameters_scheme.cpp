@@ -99,9 +99,9 @@ std::vector<Parameter> ensemble_scheme_parameters() {
                                     "places of cells, and explicit-reference, are double.");
   precision.choices = {"single", "double"};
   Parameter packing = of_ensemble("micro.packing.kind", Kind::choice, "random",
-                                  "Initial places of the cells: at random, or on a lattice with "
-                                  "random tilts.");
-  packing.choices = {"random", "lattice"};
+                                  "Initial places of the cells: at random, on a lattice with "
+                                  "random tilts, or as a table says.");
+  packing.choices = {"random", "lattice", "table"};
   const auto of_lattice = [](Parameter parameter) {
     parameter.applies_when.push_back({"micro.packing.kind", "lattice"});
     return parameter;
@@ -111,10 +111,18 @@ std::vector<Parameter> ensemble_scheme_parameters() {
   rows.range = between(1, 100000);
   rows.default_value.reset();
   rows.default_note = "as gives equal gaps along and across the flow";
+  Parameter places =
+      of_ensemble("micro.packing.table", Kind::path, "",
+                  "Comma-separated table of the centres and angles of the cells, "
+                  "with the header x [m],y [m],angle [rad], relative to the folder of "
+                  "the case file.");
+  places.default_value.reset();
+  places.required = true;
+  places.applies_when.push_back({"micro.packing.kind", "table"});
   std::vector<Parameter> table = {
       integrator,
-      stages,
       precision,
+      stages,
       packing,
       of_lattice(quantity("micro.packing.tilt", "rad", between(0, 1.6), "2 degree",
                           "Largest tilt of a cell on the lattice; a perfect lattice slides past "
@@ -122,6 +130,7 @@ std::vector<Parameter> ensemble_scheme_parameters() {
       of_lattice(quantity("micro.packing.orientation", "rad", between(-3.2, 3.2), "0 rad",
                           "Angle of the long axes of the cells on the lattice from the flow.")),
       of_lattice(rows),
+      places,
       quantity("micro.list_skin", "m", above(0), "0.15 um",
                "Reach of contact lists beyond the cutoff; it decides the cost, never a result."),
   };

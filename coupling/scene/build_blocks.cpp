@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "coupling/error.hpp"
+#include "coupling/report/series.hpp"
 #include "coupling/scene/ensemble_kinds.hpp"
 #include "micro/ensemble/blocks/block_limits.hpp"
 #include "micro/ensemble/packing/insertion.hpp"
@@ -62,9 +63,35 @@ micro::EnsembleState pack_lattice(const Settings& settings, const BlockScene& sc
   return micro::pack_on_lattice(scene.outlines.front(), scene.box, options, seed, 0).state;
 }
 
+/// Cells where a table puts them; whether they can be there is checked afterwards.
+micro::EnsembleState place_by_table(const Settings& settings, const BlockScene& scene) {
+  const std::string key = "micro.packing.table";
+  const Location at = settings.location(key);
+  std::filesystem::path path = settings.text(key);
+  if (path.is_relative()) path = std::filesystem::path(at.file).parent_path() / path;
+  const Table table = read_table(path);
+  const auto cells = static_cast<std::size_t>(settings.integer("micro.cells"));
+  const bool has_columns = table.columns.size() == 3 && table.columns[0].unit == "m" &&
+                           table.columns[1].unit == "m" && table.columns[2].unit == "rad";
+  if (!has_columns || table.rows.size() != cells) {
+    throw CaseError({{at.file, at.line, at.column, key,
+                      fmt::format("{} has {} columns and {} rows; three columns, \"x [m],y "
+                                  "[m],angle [rad]\", are needed, and a row for each of the {} "
+                                  "cells (micro.cells)",
+                                  path.string(), table.columns.size(), table.rows.size(), cells)}});
+  }
+  micro::EnsembleState state;
+  for (const std::vector<double>& row : table.rows) {
+    micro::append_cell(micro::placed(scene.outlines.front(), {row[0], row[1]}, row[2]), state);
+  }
+  return state;
+}
+
 micro::EnsembleState pack_red_cells(const Settings& settings, const BlockScene& scene,
                                     std::uint64_t seed) {
-  if (settings.text("micro.packing.kind") == "lattice") return pack_lattice(settings, scene, seed);
+  const std::string& kind = settings.text("micro.packing.kind");
+  if (kind == "lattice") return pack_lattice(settings, scene, seed);
+  if (kind == "table") return place_by_table(settings, scene);
   micro::RandomPacking packing;
   packing.kind = packed_kind(scene.settings.kinds.front());
   packing.outline = scene.outlines.front();
@@ -164,7 +191,8 @@ std::vector<micro::EnsembleState> pack_blocks(const Settings& settings, const Bl
   try {
     micro::require_sound(states, micro::room_of(scene.box));
   } catch (const micro::ParameterError& error) {
-    throw fault("micro.packing.kind", error);
+    const bool by_table = settings.has("micro.packing.table");
+    throw fault(by_table ? "micro.packing.table" : "micro.packing.kind", error);
   }
   return states;
 }

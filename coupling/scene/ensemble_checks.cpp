@@ -97,10 +97,11 @@ void check_step(const Settings& settings, const BlockScene& scene, FaultList& li
   }
 }
 
-/// Lattices are cheap; of random packing only what is impossible by its area alone is found.
+/// Lattices and tables are cheap; of random packing only what is impossible by its area alone is
+/// found.
 void check_packing(const Settings& settings, const BlockScene& scene, FaultList& list) {
   const auto cells = static_cast<std::size_t>(settings.integer("micro.cells"));
-  if (settings.text("micro.packing.kind") == "lattice") {
+  if (settings.text("micro.packing.kind") != "random") {
     BlockScene red = scene;
     red.settings.kinds.resize(1);
     list.attempt("micro.packing.kind", [&] { pack_blocks(settings, red); });

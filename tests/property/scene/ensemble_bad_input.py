@@ -193,6 +193,34 @@ class Ensembles(CommandLineTest):
         result = self.hemoscale("run", self.write_case(crowded))
         self.assert_refused(result, 2, "micro.platelets.per_cell", "platelets found a place", "case.toml:")
 
+    def test_places_of_a_table(self):
+        case = CHANNEL.replace('kind = "lattice"', 'kind = "table"\ntable = "places.csv"').replace("cells = 12", "cells = 3")
+        case = case.replace("hematocrit = 0.3", "hematocrit = 0.06")
+        head = "x [m],y [m],angle [rad]\n"
+        good = ["4e-6,8e-6,0", "4e-6,15e-6,0.5", "14e-6,22e-6,1"]
+
+        def write(rows):
+            self.write_case(case)
+            (self.folder / "case" / "places.csv").write_text(head + "\n".join(rows) + "\n", encoding="utf-8")
+
+        def refuse(rows, *fragments):
+            write(rows)
+            self.refused(case, "micro.packing.table", "case.toml:", *fragments)
+
+        write(good)
+        self.accepted(case)
+        self.assertAlmostEqual(self.run_figures(case)["area fraction at the first output"], 0.06, delta=1e-4)
+        refuse(["4e-6,8e-6,0", "4e-6,8.1e-6,0", good[2]], "cell 0 and kind 0, cell 1", "interlock")
+        refuse(["4e-6,8e-6,0", "4e-6,8e-6,1.57", good[2]], "interlock", "outlines cross", "move one of them")
+        refuse([good[0], good[1], "14e-6,29e-6,0"], "cell 2", "beyond a wall", "move the cell into the fluid")
+        refuse([good[0], good[1], "14e-6,45e-6,0"], "cell 2", "beyond a wall")
+        refuse(good[:2], "3 columns and 2 rows", "3 cells")
+        head = "x [um],y [um],angle [rad]\n"
+        refuse(good, "x [m],y [m],angle [rad]")
+        (self.folder / "case" / "places.csv").unlink()
+        result = self.hemoscale("check", self.folder / "case")
+        self.assert_refused(result, 3, "places.csv")
+
     def test_random_packing_that_is_too_dense(self):
         dense = CHANNEL.replace('kind = "lattice"', 'kind = "random"').replace("hematocrit = 0.3", "hematocrit = 0.74")
         result = self.hemoscale("run", self.write_case(dense))
