@@ -25,8 +25,11 @@ std::vector<Parameter> micro_parameters();
 /// micro.flow: what carries an ensemble in a channel.
 std::vector<Parameter> ensemble_flow_parameters();
 
-/// micro.integrator and what else only an ensemble on vectors has: packing, platelets.
+/// micro.integrator and what else only an ensemble on vectors has: packing, platelets, ranks.
 std::vector<Parameter> ensemble_scheme_parameters();
+
+/// What acts on the nodes of an ensemble: drag, mass, contacts, walls, laws of migration.
+std::vector<Parameter> ensemble_force_parameters();
 
 /// micro.plasma, and the flows that it can resolve.
 std::vector<Parameter> plasma_parameters();

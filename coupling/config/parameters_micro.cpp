@@ -74,7 +74,8 @@ std::vector<Parameter> domain_parameters() {
        .kind = Kind::quantity,
        .unit = "s",
        .range = above(0),
-       .default_note = "0.8 of the explicit limit",
+       .default_note = "0.8 of the explicit limit; with implicit steps 3e-4 over the largest "
+                       "shear rate",
        .applies_when = {ensemble},
        .sentence = "Time step of the micro model."},
       {.key = "micro.force",
@@ -119,38 +120,6 @@ std::vector<Parameter> cell_parameters() {
                          "Shape in which the bending energy vanishes."),
       of_ensemble("micro.membrane.area_modulus", "Pa", above(0), "50 Pa",
                   "Pressure inside a cell per relative change of its area."),
-  };
-}
-
-std::vector<Parameter> force_parameters() {
-  const Condition ensemble{"micro.model", "ensemble"};
-  Parameter cutoff = of_ensemble("micro.contact.cutoff", "m", above(0), "0.8 um",
-                                 "Distance beyond which nodes of different cells do not interact.");
-  cutoff.exceeds = Order{"micro.contact.rest_distance"};
-  return {
-      choice_of_ensemble(
-          "micro.drag.convention", {"cell", "node"}, "cell",
-          "Whether the coefficient is the drag of a cell, shared by its nodes, or of "
-          "each node; the step limit depends on it."),
-      {.key = "micro.drag.coefficient",
-       .kind = Kind::number,
-       .range = above(0),
-       .default_value = "12",
-       .default_when = {{"micro.drag.convention", "cell"}},
-       .applies_when = {ensemble},
-       .sentence = "Drag per unit depth over the plasma viscosity."},
-      of_ensemble("micro.contact.stiffness", "Pa", at_least(0), "10 Pa",
-                  "Slope -dF/dr of the force between two nodes of different cells at the rest "
-                  "distance, per unit depth."),
-      of_ensemble("micro.contact.rest_distance", "m", above(0), "0.5 um",
-                  "Distance at which nodes of different cells neither repel nor attract."),
-      cutoff,
-      of_ensemble("micro.contact.attraction", "", between(0, 10), "0.05",
-                  "Scale of the attraction over that of the repulsion."),
-      of_ensemble("micro.wall.stiffness", "Pa", at_least(0), "10 Pa",
-                  "Slope of the repulsion of a node by a wall, per unit depth."),
-      of_ensemble("micro.wall.range", "m", above(0), "0.5 um",
-                  "Distance at which the repulsion of a wall begins."),
   };
 }
 
@@ -211,7 +180,7 @@ std::vector<Parameter> micro_parameters() {
   std::vector<Parameter> table;
   for (const auto& part :
        {domain_parameters(), ensemble_flow_parameters(), ensemble_scheme_parameters(),
-        cell_parameters(), force_parameters(), run_parameters(), plasma_parameters(),
+        cell_parameters(), ensemble_force_parameters(), run_parameters(), plasma_parameters(),
         cell_in_plasma_parameters(), synthetic_parameters()}) {
     table.insert(table.end(), part.begin(), part.end());
   }

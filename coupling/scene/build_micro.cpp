@@ -44,10 +44,12 @@ micro::EnsembleParameters build_ensemble_parameters(const Settings& settings, in
                           ? micro::DragConvention::node
                           : micro::DragConvention::cell;
   p.drag.coefficient = settings.quantity("micro.drag.coefficient");
-  p.contact = {settings.quantity("micro.contact.stiffness"),
-               settings.quantity("micro.contact.rest_distance"),
-               settings.quantity("micro.contact.cutoff"),
-               settings.quantity("micro.contact.attraction")};
+  if (settings.text("micro.contact.law") == "polynomial") {  // the only one of the reference
+    p.contact = {settings.quantity("micro.contact.stiffness"),
+                 settings.quantity("micro.contact.rest_distance"),
+                 settings.quantity("micro.contact.cutoff"),
+                 settings.quantity("micro.contact.attraction")};
+  }
   if (settings.has("micro.time_step")) p.time_step = settings.quantity("micro.time_step");
   p.force = force || settings.boolean("micro.force");
   p.threads = threads;

@@ -3,66 +3,18 @@
 #include <fmt/format.h>
 
 #include "coupling/error.hpp"
-#include "coupling/scene/build_blocks.hpp"
 #include "coupling/scene/build_law.hpp"
 #include "coupling/scene/build_loop.hpp"
-#include "coupling/scene/build_micro.hpp"
 #include "coupling/scene/cell_scene.hpp"
+#include "coupling/scene/ensemble_checks.hpp"
+#include "coupling/scene/fault_list.hpp"
 #include "coupling/scene/plasma_scene.hpp"
 #include "macro/error.hpp"
-#include "micro/ensemble/step_limit.hpp"
 #include "micro/error.hpp"
 
 namespace hemoscale::coupling {
 
 namespace {
-
-class FaultList {
- public:
-  explicit FaultList(const Settings& settings) : settings_(settings) {}
-
-  void add(const std::string& key, const std::string& message) {
-    const Location place = settings_.location(key);
-    faults.push_back({place.file, place.line, place.column, key, message});
-  }
-
-  /// Runs a builder; what it complains of becomes a fault of that key.
-  template <class Builder>
-  void attempt(const std::string& key, const Builder& build) {
-    try {
-      build();
-    } catch (const CaseError& error) {
-      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
-    } catch (const micro::ParameterError& error) {
-      add(key, error.what());
-    } catch (const macro::ParameterError& error) {
-      add(key, error.what());
-    }
-  }
-
-  std::vector<Fault> faults;
-
- private:
-  const Settings& settings_;
-};
-
-void check_ensemble(const Settings& settings, bool force, FaultList& list) {
-  list.attempt("micro.model", [&] {
-    const micro::EnsembleParameters parameters = build_ensemble_parameters(settings, 1, force);
-    const micro::StepLimit limit = micro::step_limit(parameters);
-    if (has_explicit_limit(settings) && parameters.time_step && !parameters.force &&
-        *parameters.time_step > limit.time_step) {
-      list.add("micro.time_step",
-               fmt::format(
-                   "{:.4g} s exceeds the limit of the explicit scheme, {:.4g} s = 2 zeta / "
-                   "lambda_max (zeta {:.4g} Pa s, lambda_max {:.4g} Pa: ring {:.4g}, contact "
-                   "{:.4g}, wall {:.4g}); reduce it, leave the key out (0.8 of the limit is "
-                   "then taken), or use fewer nodes per cell; --force runs anyway",
-                   *parameters.time_step, limit.time_step, limit.drag,
-                   limit.ring + limit.contact + limit.wall, limit.ring, limit.contact, limit.wall));
-    }
-  });
-}
 
 template <int dim>
 void check_plasma(const Settings& settings, bool force, FaultList& list) {
@@ -112,7 +64,7 @@ void check_cells(const Settings& settings, bool force, FaultList& list) {
 
 std::vector<Fault> find_faults(const Settings& settings, bool force) {
   FaultList list(settings);
-  if (settings.text("micro.model") == "ensemble") check_ensemble(settings, force, list);
+  if (settings.text("micro.model") == "ensemble") list.faults = ensemble_faults(settings, force);
   if (settings.text("micro.model") == "plasma") {
     if (settings.text("scene.kind") != "micro") {
       list.add("micro.model",

@@ -12,9 +12,12 @@
 #include "coupling/report/timings.hpp"
 #include "coupling/scene/build_blocks.hpp"
 #include "coupling/scene/coupled_run.hpp"
+#include "coupling/scene/ensemble_kinds.hpp"
 #include "coupling/scene/ensemble_results.hpp"
 #include "coupling/scene/hosts.hpp"
 #include "coupling/scene/trajectory_output.hpp"
+#include "micro/ensemble/blocks/block_limits.hpp"
+#include "micro/ensemble/observables/cross_forces.hpp"
 #include "micro/ensemble/observables/observer.hpp"
 #include "micro/ensemble/observables/step_forces.hpp"
 #include "micro/ensemble/packing/state_checks.hpp"
@@ -71,17 +74,21 @@ class Observation {
   }
 
   void sample(std::vector<micro::EnsembleState>& before, std::vector<micro::EnsembleState>& after) {
+    const micro::PairLaw& law = observers_.front()->kind().law;
+    std::vector<micro::StepForces> forces;
     for (std::size_t k = 0; k < after.size(); ++k) {
       micro::bring_home(scene_.box, after[k], &before[k]);
-      const auto& kind = scene_.settings.kinds[k];
-      const micro::StepForces forces = micro::step_forces(
-          before[k], after[k], scene_.settings.time_step, scene_.box, *scene_.settings.flow,
-          kind.node_drag, observers_[k]->kind().law, *scene_.settings.plane_walls);
+      forces.push_back(forces_of(k, before[k], after[k], law));
+    }
+    micro::separate_other_kinds(forces, after, scene_.box, law);
+    for (std::size_t k = 0; k < after.size(); ++k) {
       micro::ObservedNodes nodes;
-      nodes.forces.membrane = forces.membrane.view();
-      nodes.forces.wall = forces.wall.view();
-      nodes.velocity_x = forces.velocity_x;
-      nodes.velocity_y = forces.velocity_y;
+      nodes.forces.membrane = forces[k].membrane.view();
+      nodes.forces.other_kinds = forces[k].other_kinds.view();
+      nodes.forces.wall = forces[k].wall.view();
+      nodes.forces.lift = forces[k].lift.view();
+      nodes.velocity_x = forces[k].velocity_x;
+      nodes.velocity_y = forces[k].velocity_y;
       observers_[k]->sample(after[k], scene_.box, *scene_.settings.flow, nodes);
     }
   }
@@ -93,6 +100,21 @@ class Observation {
   std::size_t count() const { return observers_.size(); }
 
  private:
+  micro::StepForces forces_of(std::size_t k, const micro::EnsembleState& before,
+                              const micro::EnsembleState& after, const micro::PairLaw& law) const {
+    const micro::blocks::BlockSettings& blocks = scene_.settings;
+    const micro::blocks::KindSettings& kind = blocks.kinds[k];
+    std::vector<double> drift;
+    if (blocks.migration.is_any()) {
+      drift = micro::drift_velocities(before, blocks.migration, scene_.box, *blocks.flow,
+                                      blocks.time_step);
+    }
+    return micro::step_forces(
+        before, after, blocks.time_step, scene_.box, *blocks.flow, kind.node_drag, law,
+        *blocks.plane_walls,
+        {.normal_ratio = kind.normal_drag, .momentum = kind.momentum_drag, .drift_y = drift});
+  }
+
   const BlockScene& scene_;
   std::vector<std::unique_ptr<micro::EnsembleObserver>> observers_;
 };
@@ -125,7 +147,8 @@ void run_ensemble(const PreparedRun& run, const micro::Communicator& communicato
     initial = pack_blocks(settings, scene);
   }
   micro::RegionEnsemble model(scene.settings, scene.precision,
-                              micro::part_of_rank(initial, communicator), communicator);
+                              micro::part_of_rank(initial, communicator), communicator,
+                              region_options(settings));
   Observation observation(scene);
   double done = 0;
   if (run.restart) {
@@ -139,7 +162,7 @@ void run_ensemble(const PreparedRun& run, const micro::Communicator& communicato
     for (const std::string& warning : restored.warnings) run.log("warning: " + warning);
     run.log(fmt::format("restart from {}: {:.6g} s done", restored.path.string(), done));
   }
-  const std::vector<std::string> statements = ensemble_statements({});
+  const std::vector<std::string> statements = ensemble_statements(optional_laws(settings));
   micro::FrameObserver trajectory;
   std::unique_ptr<EnsembleResults> results;
   if (is_root) {
@@ -225,15 +248,28 @@ void run_ensemble(const PreparedRun& run, const micro::Communicator& communicato
     summary.figures.push_back({name, value, unit});
   };
   add("time step", dt, "s");
+  add("limit of the time step", micro::blocks::block_limit(scene.settings).time_step, "s");
   add("steps", static_cast<double>(model.step()), "-");
   add("rebuilds of the contact list", static_cast<double>(counters.rebuilds), "-");
   add("rebuilds that came late", static_cast<double>(counters.late_rebuilds), "-");
+  add("steps between exchanges of copies", static_cast<double>(model.exchange_interval()), "-");
+  add("dealings of cells to ranks", static_cast<double>(model.region_counters().migrations), "-");
   add("largest strain of a segment", largest_strain, "-");
   add("length of the channel", scene.box.length, "m");
   const std::vector<micro::Overlap> overlapping =
       micro::overlaps(states, micro::room_of(scene.box));
   add("overlapping pairs of cells at the end", static_cast<double>(overlapping.size()), "-");
   for (const auto& [name, value] : scene.flow.statements) add(name.c_str(), value, "-");
+  if (counters.late_rebuilds > 0) {
+    summary.warnings.push_back(fmt::format(
+        "contact lists were rebuilt late {} times in {}: by the bound on their motion, nodes may "
+        "have come within the cutoff before the list with its skin of {:.3g} um knew of them, and "
+        "such contacts were seen some steps late; raise micro.list_skin{}",
+        counters.late_rebuilds, counters.rebuilds, 1e6 * scene.settings.skin,
+        communicator.size() > 1 ? " or lower micro.regions.exchange_interval" : ""));
+  }
+  const std::string step_fault = micro::blocks::step_fault(scene.settings);
+  if (!step_fault.empty()) summary.warnings.push_back("forced: " + step_fault);
   if (!overlapping.empty()) {
     summary.warnings.push_back(fmt::format(
         "{} pairs of cells overlap at the end; stiffen the contacts or shorten the step",

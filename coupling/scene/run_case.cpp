@@ -9,42 +9,20 @@
 #include "coupling/scene/build_blocks.hpp"
 #include "coupling/scene/build_law.hpp"
 #include "coupling/scene/build_loop.hpp"
-#include "coupling/scene/build_micro.hpp"
 #include "coupling/scene/case_checks.hpp"
 #include "coupling/scene/cell_scene.hpp"
 #include "coupling/scene/coupled_run.hpp"
+#include "coupling/scene/ensemble_checks.hpp"
 #include "coupling/scene/hosts.hpp"
 #include "coupling/scene/plasma_scene.hpp"
 #include "coupling/scene/results_folder.hpp"
 #include "macro/kinematics.hpp"
-#include "micro/ensemble/step_limit.hpp"
 
 namespace hemoscale::coupling {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string describe_ensemble(const Settings& settings) {
-  const micro::EnsembleParameters parameters = build_ensemble_parameters(settings, 1, true);
-  const micro::StepLimit limit = micro::step_limit(parameters);
-  if (!has_explicit_limit(settings)) {
-    return fmt::format(
-        "micro: {} cells of {} nodes, hematocrit {:g} (area fraction), drag convention \"{}\"\n"
-        "  drag of a node {:.4g} Pa s; implicit steps, the explicit limit of {:.4g} s does not "
-        "hold\n",
-        parameters.cells, parameters.nodes, parameters.hematocrit,
-        settings.text("micro.drag.convention"), limit.drag, limit.time_step);
-  }
-  const double step = parameters.time_step.value_or(0.8 * limit.time_step);
-  return fmt::format(
-      "micro: {} cells of {} nodes, hematocrit {:g} (area fraction), drag convention \"{}\"\n"
-      "  drag of a node {:.4g} Pa s; stiffness: ring {:.4g} Pa, contact {:.4g} Pa, wall {:.4g} Pa\n"
-      "  limit of the time step {:.4g} s; step {:.4g} s, {:.2f} of the limit\n",
-      parameters.cells, parameters.nodes, parameters.hematocrit,
-      settings.text("micro.drag.convention"), limit.drag, limit.ring, limit.contact, limit.wall,
-      limit.time_step, step, step / limit.time_step);
-}
 
 std::string describe_channel(const Settings& settings) {
   const macro::ViscosityLaw law = build_law(settings, "law.initial", "law");

@@ -1,5 +1,6 @@
 # What is seen of an ensemble of cells.
 hemoscale_test(NAME ensemble_observables_unit LABEL unit LIBRARIES hemoscale_micro SOURCES
+  unit/micro/ensemble_cross_forces_test.cpp
   unit/micro/ensemble_observables_flux_test.cpp
   unit/micro/ensemble_observables_forces_test.cpp
   unit/micro/ensemble_observables_lateral_test.cpp

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -22,25 +20,20 @@
 namespace hemoscale::micro {
 namespace {
 
-double env(const char* n, double d) {
-  const char* s = std::getenv(n);
-  return s ? std::atof(s) : d;
-}
-
 // Random insertion takes ever more attempts above this area fraction.
-const double inserted_fraction = env("START", 0.25);
+constexpr double inserted_fraction = 0.25;
 // Approach of neighbours in a stroke over the rest distance of contacts; it is halved at most so
 // often.
-const double first_stroke = env("STROKE", 0.16);
+constexpr double first_stroke = 0.16;
 constexpr int most_halvings = 5;
-const int steps_per_stroke = int(env("STEPS", 5));
-const int strokes_between_looks = int(env("LOOK", 6));
-const int settling_steps = int(env("SETTLE", 60));
+constexpr int steps_per_stroke = 5;
+constexpr int strokes_between_looks = 6;
+constexpr int settling_steps = 60;
 // dt k / zeta of contacts: long enough to move cells apart at once, below 60 where the diagonal of
 // the stiffness no longer keeps stacked contacts stable.
-const double contact_time = env("HARD", 25);
+constexpr double contact_time = 25;
 // Contacts are at most so stiff compared with a segment: softer ones relax whole cells faster.
-const double contact_over_segment = env("SOFT", 0.05);
+constexpr double contact_over_segment = 0.05;
 constexpr double skin = 0.2e-6;  // [m]
 
 /// Fluid at rest.
@@ -199,8 +192,6 @@ EnsembleState pack_at_random(const RandomPacking& packing, std::uint64_t seed,
   int halvings = 0;
   while (compactor.sound().dilation > 1) {
     if (compactor.attempt(share)) continue;
-    if (getenv("VERBOSE"))
-      std::fprintf(stderr, "halved at %.4f\n", fraction / std::pow(compactor.sound().dilation, 2));
     if (++halvings > most_halvings) {
       const double layer = 0.5 * rest_distance * packing.kind.mesh.rest_perimeter;
       throw ParameterError(fmt::format(
