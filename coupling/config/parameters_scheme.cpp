@@ -70,6 +70,7 @@ std::vector<Parameter> ensemble_scheme_parameters() {
                                   "Initial places of the cells: at random, or on a lattice with "
                                   "random tilts.");
   packing.choices = {"random", "lattice"};
+  packing.applies_when.push_back({"micro.domain", "geometry", true});
   const auto of_lattice = [](Parameter parameter) {
     parameter.applies_when.push_back({"micro.packing.kind", "lattice"});
     return parameter;

@@ -74,6 +74,12 @@ std::size_t platelet_count(const Settings& settings) {
                    static_cast<double>(settings.integer("micro.cells"))));
 }
 
+/// Where cells come and go, platelets do so in proportion.
+bool has_platelets(const Settings& settings) {
+  return settings.has("micro.cells") ? platelet_count(settings) > 0
+                                     : settings.quantity("micro.platelets.per_cell") > 0;
+}
+
 }  // namespace
 
 bool runs_on_vectors(const Settings& settings) {
@@ -103,15 +109,24 @@ BlockScene build_blocks(const Settings& settings, int threads, bool force,
   red.node_drag = limit.drag;
   blocks.kinds = {red};
   scene.names = {"red cells"};
-  if (platelet_count(settings) > 0) {
+  scene.outlines = {micro::outline_nodes(p.outline, p.nodes)};
+  if (has_platelets(settings)) {
     blocks.kinds.push_back(platelets(settings, p));
     scene.names.emplace_back("platelets");
+    scene.outlines.push_back(
+        micro::outline_nodes(platelet_outline(settings), blocks.kinds.back().mesh.nodes));
   }
   blocks.contact = contact_of(p);
-  blocks.plane_walls = micro::WallPotential{p.wall.stiffness, p.wall.range};
-  blocks.height = settings.quantity("micro.channel.height");
-  blocks.length = p.cells * red.mesh.rest_area / (p.hematocrit * blocks.height);
-  scene.box = {.length = blocks.length, .height = blocks.height, .walls = true};
+  if (scene.flow.walls) {
+    blocks.parallel_flow = false;
+    blocks.geometry = std::make_shared<const micro::WallGeometry>(*scene.flow.walls);
+    blocks.geometry_wall = {p.wall.stiffness, p.wall.range};
+  } else {
+    blocks.plane_walls = micro::WallPotential{p.wall.stiffness, p.wall.range};
+    blocks.height = settings.quantity("micro.channel.height");
+    blocks.length = p.cells * red.mesh.rest_area / (p.hematocrit * blocks.height);
+    scene.box = {.length = blocks.length, .height = blocks.height, .walls = true};
+  }
   blocks.flow = scene.flow.flow;
   blocks.integrator = integrator_of(integrator_name(settings));
   blocks.skin = settings.quantity("micro.list_skin");

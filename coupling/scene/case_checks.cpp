@@ -4,6 +4,7 @@
 
 #include "coupling/error.hpp"
 #include "coupling/scene/build_blocks.hpp"
+#include "coupling/scene/build_feed.hpp"
 #include "coupling/scene/build_law.hpp"
 #include "coupling/scene/build_loop.hpp"
 #include "coupling/scene/build_micro.hpp"
@@ -47,6 +48,14 @@ class FaultList {
 };
 
 void check_ensemble(const Settings& settings, bool force, FaultList& list) {
+  const std::string& domain = settings.text("micro.domain");
+  if (domain == "geometry" && settings.text("scene.kind") == "micro") {
+    for (const auto& [key, message] : feed_faults(settings)) list.add(key, message);
+  } else if (domain == "channel" && settings.text("micro.flow.kind") == "openfoam") {
+    list.add("micro.flow.kind",
+             "\"openfoam\" brings walls and openings of its own; choose micro.domain = "
+             "\"geometry\", or another flow");
+  }
   list.attempt("micro.model", [&] {
     const micro::EnsembleParameters parameters = build_ensemble_parameters(settings, 1, force);
     const micro::StepLimit limit = micro::step_limit(parameters);

@@ -28,6 +28,13 @@ namespace fs = std::filesystem;
 std::string describe_ensemble(const Settings& settings) {
   const micro::EnsembleParameters parameters = build_ensemble_parameters(settings, 1, true);
   const micro::StepLimit limit = micro::step_limit(parameters);
+  if (settings.text("micro.domain") == "geometry") {
+    return fmt::format(
+        "micro: cells of {} nodes enter through \"{}\" at a discharge hematocrit of {:g} (area "
+        "fraction)\n  and leave through \"{}\"; drag of a node {:.4g} Pa s\n",
+        parameters.nodes, settings.text("micro.flow.inlet"), parameters.hematocrit,
+        settings.text("micro.flow.outlets"), limit.drag);
+  }
   if (!has_explicit_limit(settings)) {
     return fmt::format(
         "micro: {} cells of {} nodes, hematocrit {:g} (area fraction), drag convention \"{}\"\n"
@@ -137,7 +144,8 @@ void run_case(const RunOptions& options, micro::Communicator&& communicator, std
   const bool is_plasma = is_micro && !has_cells && settings.text("micro.model") == "plasma";
   const bool is_openfoam = !is_micro && settings.text("macro.model") == "openfoam";
   const bool on_vectors = is_micro && runs_on_vectors(settings);
-  if (group.size() > 1 && ((is_micro && !is_plasma && !on_vectors) || is_openfoam)) {
+  const bool on_ranks = is_plasma || (on_vectors && settings.text("micro.domain") != "geometry");
+  if (group.size() > 1 && ((is_micro && !on_ranks) || is_openfoam)) {
     throw CaseError(
         {{place.file.string(), 0, 0, is_micro ? "scene.kind" : "macro.model",
           fmt::format("this scene runs on one process, but {} were started; {}", group.size(),
@@ -149,6 +157,7 @@ void run_case(const RunOptions& options, micro::Communicator&& communicator, std
   fs::path results = options.results;
   if (results.empty()) {
     results = place.folder / "results";
+    if (place.file.stem() != "case") results /= place.file.stem();
     if (!variant.empty()) results /= variant;
   }
 
