@@ -2,6 +2,10 @@ hemoscale_test(NAME scene_unit LABEL unit
   SOURCES unit/scene/child_process_test.cpp unit/scene/results_folder_test.cpp
   LIBRARIES hemoscale_scene)
 
+hemoscale_test(NAME ensemble_feed_unit LABEL unit
+  SOURCES unit/scene/ensemble_feed_test.cpp
+  LIBRARIES hemoscale_scene hemoscale_config)
+
 # Tests of the program as a user runs it.
 function(hemoscale_program_test label name file timeout)
   add_test(NAME ${label}.${name} COMMAND ${HEMOSCALE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/${file})
@@ -24,3 +28,4 @@ set_tests_properties(mpi.plasma_ranks PROPERTIES RUN_SERIAL ON)
 hemoscale_program_test(property cell_bad_input property/scene/cell_bad_input.py 200)
 hemoscale_program_test(restart cells_restart restart/scene/cells_restart.py 200)
 hemoscale_program_test(verification cell_cases verification/scene/cell_cases.py 200)
+hemoscale_program_test(openfoam fed_bifurcation openfoam/ensemble_flow/fed_bifurcation.py 200)
