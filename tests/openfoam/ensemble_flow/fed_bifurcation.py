@@ -27,7 +27,7 @@ domain = "geometry"
 nodes = 24
 duration = "0.24 s"
 output_interval = "20 ms"
-time_step = "20 us"
+time_step = "10 us"
 [micro.flow]
 kind = "openfoam"
 case = "bifurcation"
@@ -40,6 +40,8 @@ overhang = "16 um"
 settling_time = "0.15 s"
 [micro.membrane]
 stretch_modulus = "1e-4 N/m"
+# So few nodes fold over the nose of the divider unless they are stiff.
+bending_modulus = "5e-18 J"
 [micro.contact]
 stiffness = "200 Pa"
 rest_distance = "0.6 um"
@@ -101,7 +103,7 @@ class FedBifurcation(CommandLineTest):
             found["cells counted at upper"],
             found["cell share of upper"] * (found["cells counted at upper"] + found["cells counted at lower"]),
         )
-        self.assertEqual(found["time from which cells are counted"], 0.15)
+        self.assertAlmostEqual(found["time from which cells are counted"], 0.15, delta=1e-12)
         self.assertIn(
             "prescribed flow: no hydrodynamic interaction, no lift", summary(whole)["statements"]
         )
@@ -136,11 +138,8 @@ class FedBifurcation(CommandLineTest):
 
     def test_what_does_not_fit_is_refused(self):
         self.refuse(2, "micro.flow.inlet", "no opening \"entry\"", a=('"inlet"', '"entry"'))
-        self.refuse(2, "micro.time_step", "micro.flow.overhang", a=('"20 us"', '"1 ms"'))
+        self.refuse(2, "micro.time_step", "micro.flow.overhang", a=('"10 us"', '"1 ms"'))
         self.refuse(2, "micro.flow.inlet", "none can enter", a=('overhang', 'cell_free_layer = "40 um"\noverhang'))
-        self.refuse(
-            4, "cells wait for a free place at inlet", "0.7", a=("hematocrit = 0.15", "hematocrit = 0.7")
-        )
 
     @unittest.skipUnless(shutil.which("mpirun"), "mpirun is not installed")
     def test_several_processes_are_refused(self):
