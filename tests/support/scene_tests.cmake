@@ -29,3 +29,4 @@ hemoscale_program_test(property cell_bad_input property/scene/cell_bad_input.py 
 hemoscale_program_test(restart cells_restart restart/scene/cells_restart.py 200)
 hemoscale_program_test(verification cell_cases verification/scene/cell_cases.py 200)
 hemoscale_program_test(openfoam fed_bifurcation openfoam/ensemble_flow/fed_bifurcation.py 200)
+set_property(TEST openfoam.fed_bifurcation APPEND PROPERTY ENVIRONMENT OMP_NUM_THREADS=1)

@@ -104,6 +104,10 @@ class FedBifurcation(CommandLineTest):
             found["cell share of upper"] * (found["cells counted at upper"] + found["cells counted at lower"]),
         )
         self.assertAlmostEqual(found["time from which cells are counted"], 0.15, delta=1e-12)
+        # Parent, daughters, and what lies between them and the rounded corners.
+        self.assertAlmostEqual(found["area of the fluid"], (15000 + 12750 + 1010) * 1e-12, delta=2e-10)
+        hematocrit = found["cells between the openings"] * 13.6e-12 / found["area of the fluid"]
+        self.assertAlmostEqual(found["tube hematocrit"], hematocrit, delta=0.03 * hematocrit)
         self.assertIn(
             "prescribed flow: no hydrodynamic interaction, no lift", summary(whole)["statements"]
         )
