@@ -78,6 +78,15 @@ std::vector<Parameter> openfoam_parameters() {
   time_unit.unit = "s";
   Parameter inlet = text("inlet", "Patch through which blood enters.");
   inlet.required = true;
+  Parameter layer = length("cell_free_layer", "0 um",
+                           "Layer along the walls of the inlet in which no cell has its centre "
+                           "when it enters; without lift none forms on the way.");
+  layer.range = at_least(0);
+  Parameter settling = length("settling_time", "0 s",
+                              "Time from which cells are counted at the outlets; the vessel is "
+                              "empty at first.");
+  settling.unit = "s";
+  settling.range = at_least(0);
   Parameter outlets =
       text("outlets", "Patches through which it leaves, with commas between their names.");
   outlets.required = true;
@@ -94,7 +103,9 @@ std::vector<Parameter> openfoam_parameters() {
           outlets,
           length("overhang", "10 um",
                  "Length by which walls and flow are continued beyond inlet and outlets, for the "
-                 "nodes of cells that pass them.")};
+                 "nodes of cells that pass them."),
+          layer,
+          settling};
 }
 
 }  // namespace

@@ -49,6 +49,12 @@ Parameter of_lone_run(const std::string& key, const std::string& unit,
   return parameter;
 }
 
+/// Where cells come and go, nothing but the feed says how many there are.
+Parameter of_closed_domain(Parameter parameter) {
+  parameter.applies_when.push_back({"micro.domain", "geometry", true});
+  return parameter;
+}
+
 std::vector<Parameter> domain_parameters() {
   const Condition ensemble{"micro.model", "ensemble"};
   return {
@@ -60,10 +66,11 @@ std::vector<Parameter> domain_parameters() {
        .sentence =
            "Periodic box in simple shear, channel between two walls, or the geometry of a flow "
            "with inlet and outlets (micro.flow); coupled scenes need the shear box."},
-      count_of_ensemble("micro.cells", between(1, 1000000), "24", "Number of cells."),
+      of_closed_domain(
+          count_of_ensemble("micro.cells", between(1, 1000000), "24", "Number of cells.")),
       count_of_ensemble("micro.nodes", between(8, 1000), "40", "Nodes of the membrane of a cell."),
-      of_ensemble("micro.aspect_ratio", "", between(0.2, 50), "1",
-                  "Length of the shear box over its height."),
+      of_closed_domain(of_ensemble("micro.aspect_ratio", "", between(0.2, 50), "1",
+                                   "Length of the shear box over its height.")),
       of_lone_run("micro.shear_rate", "1/s", {{"micro.domain", "shear-box"}},
                   "Shear rate of the box."),
       of_lone_run("micro.mean_velocity", "m/s", {{"micro.domain", "channel"}},

@@ -102,6 +102,7 @@ std::vector<Parameter> ensemble_scheme_parameters() {
                                   "Initial places of the cells: at random, on a lattice with "
                                   "random tilts, or as a table says.");
   packing.choices = {"random", "lattice", "table"};
+  packing.applies_when.push_back({"micro.domain", "geometry", true});
   const auto of_lattice = [](Parameter parameter) {
     parameter.applies_when.push_back({"micro.packing.kind", "lattice"});
     return parameter;

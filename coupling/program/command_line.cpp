@@ -86,7 +86,8 @@ Command parse_command_line(int count, char** arguments) {
   run_app->add_option("--variant", run.variant, variant_help);
   add_overrides(*run_app, run.set);
   run_app->add_option("--results", run.results,
-                      "Folder of the results; default: results in the case, or results/VARIANT");
+                      "Folder of the results; default: results in the case, results/FILE for "
+                      "FILE.toml, then /VARIANT");
   run_app->add_flag("--restart", run.restart, "Continue from the newest checkpoint");
   run_app->add_flag("--force", run.force, "Run although a stability limit is exceeded");
   run_app->footer(

@@ -35,6 +35,7 @@ from cell_series import draw_cell_series
 from cells import draw_cell_flow, draw_cell_shapes
 from ensemble import draw_ensemble
 from ensemble_tables import is_ensemble
+from feed import draw_feed, is_feed
 from picture import BLUE, GREEN, GREY, ORANGE, RED, Folder, label, scaled
 from trajectories import open_trajectory
 
@@ -228,6 +229,9 @@ def main():
     folder = Folder(sys.argv[1])
     if is_ensemble(folder):
         draw_ensemble(folder)
+        return
+    if is_feed(folder):
+        draw_feed(folder)
         return
     draw_profile(folder)
     draw_law(folder)

@@ -149,12 +149,19 @@ BlockScene build_blocks(const Settings& settings, int threads, bool force,
   blocks.kinds = std::move(kinds.kinds);
   const micro::RingMesh& red = blocks.kinds.front().mesh;
   blocks.contact = contact_law(settings);
-  blocks.plane_walls = micro::WallPotential{settings.quantity("micro.wall.stiffness"),
-                                            settings.quantity("micro.wall.range")};
-  blocks.height = settings.quantity("micro.channel.height");
-  blocks.length = static_cast<double>(settings.integer("micro.cells")) * red.rest_area /
-                  (settings.quantity("fluid.hematocrit") * blocks.height);
-  scene.box = {.length = blocks.length, .height = blocks.height, .walls = true};
+  const micro::WallPotential wall{settings.quantity("micro.wall.stiffness"),
+                                  settings.quantity("micro.wall.range")};
+  if (scene.flow.walls) {
+    blocks.parallel_flow = false;
+    blocks.geometry = std::make_shared<const micro::WallGeometry>(*scene.flow.walls);
+    blocks.geometry_wall = wall;
+  } else {
+    blocks.plane_walls = wall;
+    blocks.height = settings.quantity("micro.channel.height");
+    blocks.length = static_cast<double>(settings.integer("micro.cells")) * red.rest_area /
+                    (settings.quantity("fluid.hematocrit") * blocks.height);
+    scene.box = {.length = blocks.length, .height = blocks.height, .walls = true};
+  }
   blocks.flow = scene.flow.flow;
   blocks.integrator = block_integrator(settings);
   if (settings.has("micro.chebyshev.stages")) {

@@ -22,9 +22,9 @@ bool has_explicit_limit(const Settings& settings);
 struct BlockScene {
   micro::blocks::BlockSettings settings;
   micro::Precision precision = micro::Precision::single;
-  micro::Box box;                                       // the plane channel
+  micro::Box box;                                       // the plane channel; empty in a geometry
   std::vector<std::string> names;                       // of the kinds of cells
-  std::vector<std::vector<micro::Vector<2>>> outlines;  // [m] of the kinds at rest
+  std::vector<std::vector<micro::Vector<2>>> outlines;  // [m] of the kinds, at rest
   EnsembleFlow flow;
 };
 

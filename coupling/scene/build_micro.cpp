@@ -10,12 +10,17 @@ namespace hemoscale::coupling {
 micro::EnsembleParameters build_ensemble_parameters(const Settings& settings, int threads,
                                                     bool force) {
   micro::EnsembleParameters p;
-  p.cells = static_cast<int>(settings.integer("micro.cells"));
+  // Where cells come and go, one stands for all.
+  p.cells = settings.has("micro.cells") ? static_cast<int>(settings.integer("micro.cells")) : 1;
   p.nodes = static_cast<int>(settings.integer("micro.nodes"));
   p.hematocrit = settings.quantity("fluid.hematocrit");
   p.plasma_viscosity = settings.quantity("fluid.plasma_viscosity");
   if (settings.text("micro.domain") == "channel") {
     p.domain = micro::PlaneChannel{settings.quantity("micro.channel.height")};
+    p.wall = {settings.quantity("micro.wall.stiffness"), settings.quantity("micro.wall.range")};
+  } else if (settings.text("micro.domain") == "geometry") {
+    // What walls do to nodes and steps is that of a channel; the flow says where they are.
+    p.domain = micro::PlaneChannel{settings.quantity("micro.shape.length")};
     p.wall = {settings.quantity("micro.wall.stiffness"), settings.quantity("micro.wall.range")};
   } else {
     p.domain = micro::ShearBox{settings.quantity("micro.aspect_ratio")};

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "coupling/scene/build_blocks.hpp"
+#include "coupling/scene/build_feed.hpp"
 #include "coupling/scene/build_micro.hpp"
 #include "coupling/scene/ensemble_kinds.hpp"
 #include "coupling/scene/fault_list.hpp"
@@ -17,7 +18,7 @@ namespace hemoscale::coupling {
 namespace {
 
 std::string quoted_integrator(const Settings& settings) {
-  return "\"" + integrator_name(settings) + "\"";
+  return fmt::format("\"{}\"", integrator_name(settings));
 }
 
 void check_reference(const Settings& settings, bool force, FaultList& list) {
@@ -121,6 +122,13 @@ void check_blocks(const Settings& settings, bool force, FaultList& list) {
                          quoted_integrator(settings)));
     return;
   }
+  if (settings.text("micro.domain") == "geometry") {
+    for (const auto& [key, message] : feed_faults(settings)) list.add(key, message);
+  } else if (settings.text("micro.flow.kind") == "openfoam") {
+    list.add("micro.flow.kind",
+             "\"openfoam\" brings walls and openings of its own; choose micro.domain = "
+             "\"geometry\", or another flow");
+  }
   check_options(settings, list);
   if (!list.faults.empty() || settings.text("micro.domain") != "channel") return;
   list.attempt("micro.model", [&] {
@@ -164,9 +172,14 @@ std::string describe_ensemble(const Settings& settings) {
                        limit.ring, limit.contact, limit.wall) +
            describe_step(parameters.time_step.value_or(0.8 * limit.time_step), limit.time_step);
   }
-  if (settings.text("micro.domain") != "channel") {
-    return describe_cells(settings, build_kinds(settings).kinds.front().node_drag) +
-           "\n  the limit of the time step follows from the flow when the run begins\n";
+  if (settings.text("micro.domain") == "geometry") {
+    return fmt::format(
+        "micro: cells of {} nodes enter through \"{}\" at a discharge hematocrit of {:g} (area "
+        "fraction)\n  and leave through \"{}\"; drag of a node {:.4g} Pa s\n"
+        "  the limit of the time step follows from the flow when the run begins\n",
+        settings.integer("micro.nodes"), settings.text("micro.flow.inlet"),
+        settings.quantity("fluid.hematocrit"), settings.text("micro.flow.outlets"),
+        build_kinds(settings).kinds.front().node_drag);
   }
   const BlockScene scene = build_blocks(settings, 1, true, {}, {});
   const micro::blocks::BlockLimit limit = micro::blocks::block_limit(scene.settings);

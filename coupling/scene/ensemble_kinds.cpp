@@ -120,7 +120,11 @@ EnsembleKinds build_kinds(const Settings& settings) {
   all.outlines.push_back(micro::outline_nodes(p.outline, p.nodes));
   all.kinds.push_back(red_cells(settings, p, all.outlines.front()));
   all.names.emplace_back("red cells");
-  if (platelet_count(settings) > 0) {
+  // Where cells come and go, platelets do so in proportion.
+  const bool has_platelets = settings.has("micro.cells")
+                                 ? platelet_count(settings) > 0
+                                 : settings.quantity("micro.platelets.per_cell") > 0;
+  if (has_platelets) {
     all.outlines.push_back(micro::outline_nodes(
         platelet_outline(settings), static_cast<int>(settings.integer("micro.platelets.nodes"))));
     all.kinds.push_back(platelets(settings, p, all.outlines.back(), all.kinds.front()));

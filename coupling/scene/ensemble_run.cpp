@@ -12,6 +12,7 @@
 #include "coupling/report/timings.hpp"
 #include "coupling/scene/build_blocks.hpp"
 #include "coupling/scene/coupled_run.hpp"
+#include "coupling/scene/ensemble_feed_run.hpp"
 #include "coupling/scene/ensemble_kinds.hpp"
 #include "coupling/scene/ensemble_results.hpp"
 #include "coupling/scene/hosts.hpp"
@@ -127,9 +128,13 @@ std::string observer_slot(std::size_t kind) {
 
 void run_ensemble(const PreparedRun& run, const micro::Communicator& communicator) {
   const Settings& settings = run.settings;
+  if (settings.text("micro.domain") == "geometry") {
+    run_ensemble_feed(run, communicator);
+    return;
+  }
   if (settings.text("micro.domain") != "channel") {
     throw CaseError({{run.case_file.string(), 0, 0, "micro.domain",
-                      "the integrators on vectors run alone in a channel so far; choose "
+                      "the integrators on vectors run alone in a channel or a geometry; choose "
                       "micro.domain = \"channel\", or micro.integrator = \"explicit-reference\""}});
   }
   const auto identity = state_settings(settings.as_text(), settings_free_at_restart());

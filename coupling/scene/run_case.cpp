@@ -115,7 +115,8 @@ void run_case(const RunOptions& options, micro::Communicator&& communicator, std
   const bool is_plasma = is_micro && !has_cells && settings.text("micro.model") == "plasma";
   const bool is_openfoam = !is_micro && settings.text("macro.model") == "openfoam";
   const bool on_vectors = is_micro && runs_on_vectors(settings);
-  if (group.size() > 1 && ((is_micro && !is_plasma && !on_vectors) || is_openfoam)) {
+  const bool on_ranks = is_plasma || (on_vectors && settings.text("micro.domain") != "geometry");
+  if (group.size() > 1 && ((is_micro && !on_ranks) || is_openfoam)) {
     throw CaseError(
         {{place.file.string(), 0, 0, is_micro ? "scene.kind" : "macro.model",
           fmt::format("this scene runs on one process, but {} were started; {}", group.size(),
@@ -127,6 +128,7 @@ void run_case(const RunOptions& options, micro::Communicator&& communicator, std
   fs::path results = options.results;
   if (results.empty()) {
     results = place.folder / "results";
+    if (place.file.stem() != "case") results /= place.file.stem();
     if (!variant.empty()) results /= variant;
   }
 

@@ -3,6 +3,7 @@ find_package(nlohmann_json 3.11 REQUIRED)
 hemoscale_test(NAME results_unit_test LABEL unit
   SOURCES unit/results/cell_plot_test.cpp
           unit/results/checkpoint_test.cpp
+          unit/results/feed_plot_test.cpp
           unit/results/plot_test.cpp
           unit/results/progress_test.cpp
           unit/results/provenance_test.cpp

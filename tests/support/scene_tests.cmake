@@ -2,6 +2,10 @@ hemoscale_test(NAME scene_unit LABEL unit
   SOURCES unit/scene/child_process_test.cpp unit/scene/results_folder_test.cpp
   LIBRARIES hemoscale_scene)
 
+hemoscale_test(NAME ensemble_feed_unit LABEL unit
+  SOURCES unit/scene/ensemble_feed_test.cpp
+  LIBRARIES hemoscale_scene hemoscale_config)
+
 # Tests of the program as a user runs it.
 function(hemoscale_program_test label name file timeout)
   add_test(NAME ${label}.${name} COMMAND ${HEMOSCALE_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/${file})
@@ -25,3 +29,5 @@ hemoscale_program_test(property cell_bad_input property/scene/cell_bad_input.py 
 hemoscale_program_test(restart cells_restart restart/scene/cells_restart.py 200)
 hemoscale_program_test(verification cell_cases verification/scene/cell_cases.py 200)
 hemoscale_program_test(property ensemble_bad_input property/scene/ensemble_bad_input.py 120)
+hemoscale_program_test(openfoam fed_bifurcation openfoam/ensemble_flow/fed_bifurcation.py 200)
+set_property(TEST openfoam.fed_bifurcation APPEND PROPERTY ENVIRONMENT OMP_NUM_THREADS=1)

@@ -52,6 +52,13 @@ class BadInput(CommandLineTest):
         result = self.hemoscale("check", self.write_case(GOOD))
         self.assertEqual(result.returncode, 0, result.stderr)
 
+    def test_cases_in_one_folder_do_not_share_results(self):
+        folder = self.write_case(GOOD)
+        (folder / "other.toml").write_text(ENSEMBLE, encoding="utf-8")
+        self.run_case(folder / "other.toml")
+        self.assertTrue((folder / "results" / "other" / "summary.json").exists())
+        self.assertFalse((folder / "results" / "summary.json").exists())
+
     def test_unknown_key_names_the_nearest(self):
         self.check(GOOD.replace("mean_velocity", "mean_velocty"), "mean_velocty", "mean_velocity", "case.toml:7")
 
