@@ -7,7 +7,7 @@ import tomllib
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
-from command_line import CommandLineTest, figures, summary  # noqa: E402
+from command_line import CommandLineTest, figures, summary, table  # noqa: E402
 
 CASES = pathlib.Path(__file__).parents[3] / "cases"
 
@@ -175,6 +175,23 @@ class Ensembles(CommandLineTest):
                     self.assertAlmostEqual(change - other, seen[rate], delta=0.15 * abs(seen[rate]))
                 else:
                     self.assertNotEqual(seen[rate], 0)
+
+    def test_rates_by_cause_are_the_rate_of_the_mean_square_distance(self):
+        text = with_micro(CHANNEL, 'integrator = "explicit"', 'precision = "double"', 'time_step = "0.2 us"',
+                          "platelets.per_cell = 3")
+        self.run_figures(lasting(text, "6 us", "0.2 us"))
+        series = table(self.folder / "results" / "series.csv")
+        for kind in ("", "platelets: "):
+            square = series[kind + "mean square distance of the cells from the axis"]
+            rates = kind + "rate of the mean square distance by "
+            parts = {cause: series[rates + cause] for cause in ("attraction", "repulsion", "other kinds", "walls")}
+            self.assertGreater(min(map(abs, parts["other kinds"])), 0)
+            for n in range(1, len(square)):
+                # Forces at the end of an explicit step are those that move the nodes in the next.
+                change = (square[n] - square[n - 1]) / (series["time"][n] - series["time"][n - 1])
+                total = sum(part[n - 1] for part in parts.values())
+                size = sum(abs(part[n - 1]) for part in parts.values())
+                self.assertAlmostEqual(change, total, delta=5e-4 * size)
 
     def test_lift_is_for_red_cells_alone(self):
         for law in ("wall_lift", "shear_lift", "shear_diffusion"):
