@@ -25,3 +25,5 @@ hemoscale_program_test(property cell_bad_input property/scene/cell_bad_input.py 
 hemoscale_program_test(restart cells_restart restart/scene/cells_restart.py 200)
 hemoscale_program_test(verification cell_cases verification/scene/cell_cases.py 200)
 hemoscale_program_test(property ensemble_bad_input property/scene/ensemble_bad_input.py 120)
+hemoscale_program_test(restart ensemble_restart restart/scene/ensemble_restart.py 120)
+hemoscale_program_test(verification ensemble_cases verification/scene/ensemble_cases.py 120)
