@@ -69,6 +69,17 @@ std::vector<Parameter> output_parameters() {
        .sentence =
            "Strain between frames of the trajectory; in coupled scenes of the last micro run "
            "of each point."},
+      {.key = "output.nodes",
+       .kind = Kind::boolean,
+       .default_value = "false",
+       .applies_when = {{"micro.domain", "channel"}},
+       .sentence = "Write a table of all nodes of the cells at the end (nodes.csv)."},
+      {.key = "output.reference_nodes",
+       .kind = Kind::path,
+       .default_note = "none",
+       .applies_when = {{"micro.domain", "channel"}},
+       .sentence = "Table nodes.csv of another run of the same cells, relative to the case file: "
+                   "the summary states the root mean square distance of the nodes from it."},
       {.key = "output.checkpoint_interval",
        .kind = Kind::quantity,
        .unit = "s",

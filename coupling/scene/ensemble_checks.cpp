@@ -43,6 +43,12 @@ void check_reference(const Settings& settings, bool force, FaultList& list) {
   if (settings.text("micro.domain") == "geometry") {
     on_vectors_alone("micro.domain", "\"geometry\"");
   }
+  if (settings.text("micro.domain") == "channel" && settings.boolean("output.nodes")) {
+    on_vectors_alone("output.nodes", "true");
+  }
+  if (settings.has("output.reference_nodes")) {
+    on_vectors_alone("output.reference_nodes", "a reference");
+  }
   if (!list.faults.empty()) return;
   list.attempt("micro.model", [&] {
     const micro::EnsembleParameters parameters = build_ensemble_parameters(settings, 1, force);

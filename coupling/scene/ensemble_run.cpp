@@ -14,6 +14,7 @@
 #include "coupling/scene/coupled_run.hpp"
 #include "coupling/scene/ensemble_feed_run.hpp"
 #include "coupling/scene/ensemble_kinds.hpp"
+#include "coupling/scene/ensemble_nodes.hpp"
 #include "coupling/scene/ensemble_results.hpp"
 #include "coupling/scene/hosts.hpp"
 #include "coupling/scene/trajectory_output.hpp"
@@ -261,6 +262,11 @@ void run_ensemble(const PreparedRun& run, const micro::Communicator& communicato
   add("dealings of cells to ranks", static_cast<double>(model.region_counters().migrations), "-");
   add("largest strain of a segment", largest_strain, "-");
   add("length of the channel", scene.box.length, "m");
+  if (settings.boolean("output.nodes")) write_nodes(run.results / "nodes.csv", states);
+  if (settings.has("output.reference_nodes")) {
+    add("distance of the nodes from the reference",
+        distance_from_reference(settings, run.case_folder, states), "m");
+  }
   const std::vector<micro::Overlap> overlapping =
       micro::overlaps(states, micro::room_of(scene.box));
   add("overlapping pairs of cells at the end", static_cast<double>(overlapping.size()), "-");

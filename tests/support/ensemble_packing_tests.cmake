@@ -8,4 +8,5 @@ hemoscale_test(NAME ensemble_packing_unit LABEL unit LIBRARIES hemoscale_micro S
 hemoscale_test(NAME ensemble_packing_property LABEL property LIBRARIES hemoscale_micro SOURCES
   property/micro/ensemble_packing_test.cpp)
 hemoscale_test(NAME ensemble_packing_scene LABEL unit LIBRARIES hemoscale_scene hemoscale_config SOURCES
+  unit/scene/ensemble_kinds_test.cpp
   unit/scene/ensemble_packing_shape_test.cpp)

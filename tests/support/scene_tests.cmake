@@ -31,3 +31,5 @@ hemoscale_program_test(verification cell_cases verification/scene/cell_cases.py 
 hemoscale_program_test(property ensemble_bad_input property/scene/ensemble_bad_input.py 120)
 hemoscale_program_test(openfoam fed_bifurcation openfoam/ensemble_flow/fed_bifurcation.py 200)
 set_property(TEST openfoam.fed_bifurcation APPEND PROPERTY ENVIRONMENT OMP_NUM_THREADS=1)
+hemoscale_program_test(restart ensemble_restart restart/scene/ensemble_restart.py 120)
+hemoscale_program_test(verification ensemble_cases verification/scene/ensemble_cases.py 120)
