@@ -27,7 +27,7 @@ struct FeedTally {
 ///
 ///   cell share       cells that left through an outlet over all that left
 ///   partition        cell share over flow share: 1 where cells follow the plasma, above 1 in the
-///                    branch that draws more than its part [Zweifach and Lipowsky; Fung 1973]
+///                    branch that draws more than its part [Svanes and Zweifach 1968; Fung 1973]
 ///   discharge        area of the cells that left over area of the blood that did, a hematocrit
 ///
 /// Not numbers where nothing has left. The standard error of a share p of n cells is that of
