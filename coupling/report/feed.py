@@ -137,7 +137,9 @@ def draw_share(axis, tables, time, kind):
     for n, outlet in enumerate(tables.outlets):
         style = tables.style(n)
         share = tables.column(kind, SHARE + outlet)
-        axis.plot(time, share, marker="." if np.isfinite(share).sum() < 3 else None, **style)
+        if np.isfinite(share).sum() < 3:  # no line to be seen
+            style["marker"], style["clip_on"] = ".", False
+        axis.plot(time, share, **style)
         flow = exact(tables.series, "flow share of " + outlet)[-1]
         axis.axhline(flow, color=style["color"], linewidth=1, linestyle=":")
         beside(axis, "flow", flow, style["color"])

@@ -147,6 +147,7 @@ class FedBifurcation(CommandLineTest):
 
     def test_what_does_not_fit_is_refused(self):
         self.refuse(2, "micro.flow.inlet", "no opening \"entry\"", a=('"inlet"', '"entry"'))
+        self.refuse(2, "micro.flow.outlets", "named twice", a=("upper, lower", "upper, upper"))
         self.refuse(2, "micro.time_step", "micro.flow.overhang", a=('"10 us"', '"1 ms"'))
         self.refuse(2, "micro.flow.inlet", "none can enter", a=('overhang', 'cell_free_layer = "40 um"\noverhang'))
 
