@@ -119,10 +119,8 @@ def beside(axis, text, y, colour):
     )
 
 
-def draw_filling(axis, tables, time):
-    for kind, name in enumerate(tables.names):
-        values = tables.column(kind, "tube hematocrit")
-        axis.plot(time, values, color=COLOURS[kind], label=name)
+def draw_filling(axis, tables, time, kind):
+    axis.plot(time, tables.column(kind, "tube hematocrit"), color=COLOURS[kind])
     axis.set_ylim(bottom=0)
     axis.set_ylabel("Tube\nhematocrit [-]")
 
@@ -139,7 +137,9 @@ def draw_share(axis, tables, time, kind):
     for n, outlet in enumerate(tables.outlets):
         style = tables.style(n)
         share = tables.column(kind, SHARE + outlet)
-        axis.plot(time, share, marker="." if np.isfinite(share).sum() < 3 else None, **style)
+        if np.isfinite(share).sum() < 3:  # no line to be seen
+            style["marker"], style["clip_on"] = ".", False
+        axis.plot(time, share, **style)
         flow = exact(tables.series, "flow share of " + outlet)[-1]
         axis.axhline(flow, color=style["color"], linewidth=1, linestyle=":")
         beside(axis, "flow", flow, style["color"])
@@ -154,7 +154,7 @@ def draw_shares(folder, tables):
     figure, axes = plt.subplots(3, kinds, figsize=(6.5 * kinds, 7), squeeze=False, sharex=True)
     since = folder.figures.get("time from which cells are counted", 0)
     for kind, column in enumerate(axes.T):
-        draw_filling(column[0], tables, time)
+        draw_filling(column[0], tables, time, kind)
         draw_left(column[1], tables, time, kind)
         draw_share(column[2], tables, time, kind)
         column[0].set_title(tables.names[kind].capitalize(), fontsize=10, loc="left")
@@ -162,8 +162,6 @@ def draw_shares(folder, tables):
             axis.axvspan(time[0], factor * since, color=GREY, alpha=0.12, linewidth=0)
         column[2].set_xlabel(label("time", unit))
         column[2].set_xlim(time[0], max(time[-1], time[0] + 1e-12))
-    if kinds > 1:
-        axes[0][0].legend(fontsize=8)
     handles = [
         plt.Line2D([], [], label=outlet, **tables.style(n))
         for n, outlet in enumerate(tables.outlets)

@@ -92,7 +92,7 @@ class FeedRun {
     Progress progress("time [s]", ensemble_.time(), duration_);
     if (!run_.restart) output();
     while (ensemble_.step() < last) {
-      const double next = interval_ * (std::floor(ensemble_.time() / interval_ + 0.5) + 1);
+      const double next = interval_ * static_cast<double>(intervals() + 1);
       const std::int64_t target = std::min(last, step_at(next));
       advance_to(std::max(target, ensemble_.step() + 1));
       output();
@@ -118,7 +118,17 @@ class FeedRun {
     return std::llround(time / scene_.blocks.settings.time_step);
   }
 
-  std::int64_t output_number() const { return std::llround(ensemble_.time() / interval_); }
+  /// Whole intervals that have passed; outputs are at the steps nearest to their ends.
+  std::int64_t intervals() const {
+    const double margin = 0.75 * scene_.blocks.settings.time_step;
+    return static_cast<std::int64_t>((ensemble_.time() + margin) / interval_);
+  }
+
+  /// Of the present output, from 0; the last one may end a part of an interval.
+  std::int64_t output_number() const {
+    const double rest = ensemble_.time() - interval_ * static_cast<double>(intervals());
+    return intervals() + (rest > 0.75 * scene_.blocks.settings.time_step ? 1 : 0);
+  }
 
   void advance_to(std::int64_t step) {
     const auto scope = timings_.measure("micro model");

@@ -128,6 +128,14 @@ std::vector<micro::Opening> find_openings(const Settings& settings,
                   fmt::format("the mesh has no opening \"{}\"; it has {}", name,
                               known.empty() ? "none" : known));
     }
+    if (std::any_of(openings.begin(), openings.end(),
+                    [&](const micro::Opening& opening) { return opening.name == name; })) {
+      throw fault(
+          settings, key,
+          fmt::format("\"{}\" is named twice; the openings of the mesh are {}; name each of "
+                      "them once, as the inlet or an outlet",
+                      name, known));
+    }
     if (found->polylines.size() != 1 || found->polylines.front().size() != 2) {
       throw fault(settings, key,
                   fmt::format("the patch \"{}\" is not one straight line; divide it into patches "

@@ -193,8 +193,8 @@ std::vector<Column> FeedResults::columns() const {
   return all;
 }
 
-void FeedResults::append(std::int64_t number, const micro::BlockEnsemble& ensemble,
-                         const micro::CellFeed& feed, const FeedTally& tally) {
+std::vector<double> FeedResults::row(const micro::BlockEnsemble& ensemble,
+                                     const micro::CellFeed& feed, const FeedTally& tally) const {
   const auto states = ensemble.states();
   const auto frames = ensemble.frames();
   std::vector<double> row = {ensemble.time()};
@@ -213,8 +213,12 @@ void FeedResults::append(std::int64_t number, const micro::BlockEnsemble& ensemb
       row.insert(row.end(), part->begin(), part->end());
     }
   }
-  series_.append(row);
-  last_row_ = std::move(row);
+  return row;
+}
+
+void FeedResults::append(std::int64_t number, const micro::BlockEnsemble& ensemble,
+                         const micro::CellFeed& feed, const FeedTally& tally) {
+  series_.append(row(ensemble, feed, tally));
   append_places(ensemble);
   if (with_frames_) write_frame(number, ensemble);
 }
@@ -264,8 +268,9 @@ std::vector<Figure> FeedResults::figures(const micro::BlockEnsemble& ensemble,
                                          const FeedTally& tally) const {
   std::vector<Figure> figures;
   const std::vector<Column> names = columns();
+  const std::vector<double> values = row(ensemble, feed, tally);
   for (std::size_t n = 1; n < names.size(); ++n) {
-    figures.push_back({names[n].name, last_row_[n], names[n].unit});
+    figures.push_back({names[n].name, values[n], names[n].unit});
   }
   for (std::size_t k = 0; k < scene_.blocks.names.size(); ++k) {
     const FeedDivision d = divide(scene_, tally, feed.counts(), k, ensemble.time());

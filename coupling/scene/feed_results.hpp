@@ -27,7 +27,7 @@ struct FeedTally {
 ///
 ///   cell share       cells that left through an outlet over all that left
 ///   partition        cell share over flow share: 1 where cells follow the plasma, above 1 in the
-///                    branch that draws more than its part [Zweifach and Lipowsky; Fung 1973]
+///                    branch that draws more than its part [Svanes and Zweifach 1968; Fung 1973]
 ///   discharge        area of the cells that left over area of the blood that did, a hematocrit
 ///
 /// Not numbers where nothing has left. The standard error of a share p of n cells is that of
@@ -62,13 +62,14 @@ class FeedResults {
   void append(std::int64_t number, const micro::BlockEnsemble& ensemble,
               const micro::CellFeed& feed, const FeedTally& tally);
 
-  /// The last row, then how cells divided, with standard errors.
-  /// @pre append() was called
+  /// What a row would hold, then how cells divided, with standard errors.
   std::vector<Figure> figures(const micro::BlockEnsemble& ensemble, const micro::CellFeed& feed,
                               const FeedTally& tally) const;
 
  private:
   std::vector<Column> columns() const;
+  std::vector<double> row(const micro::BlockEnsemble& ensemble, const micro::CellFeed& feed,
+                          const FeedTally& tally) const;
   void append_places(const micro::BlockEnsemble& ensemble);
   void write_frame(std::int64_t number, const micro::BlockEnsemble& ensemble) const;
 
@@ -77,7 +78,6 @@ class FeedResults {
   bool with_frames_ = true;
   SeriesWriter series_;
   SeriesWriter places_;
-  std::vector<double> last_row_;
 };
 
 }  // namespace hemoscale::coupling

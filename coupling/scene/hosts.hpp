@@ -33,7 +33,8 @@ void run_openfoam(const PreparedRun& run);
 /// A micro scene alone: an ensemble in a shear box or a channel. One process.
 void run_micro(const PreparedRun& run);
 
-/// An ensemble on vectors alone, in a channel. Collective: cells are shared among the ranks.
+/// An ensemble on vectors alone, in a channel. Collective: cells are shared among the ranks. In a
+/// geometry one process, see run_ensemble_feed.
 void run_ensemble(const PreparedRun& run, const micro::Communicator& communicator);
 
 /// A plasma scene alone. Collective; the least-squares method shares its work among the ranks.
