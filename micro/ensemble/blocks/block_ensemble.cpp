@@ -74,10 +74,9 @@ struct BlockEnsemble::Parts {
     return kinds;
   }
 
-  /// Cells in the order of their places along the channel: neighbours share blocks.
   static std::vector<CellRecord> in_order(std::vector<CellRecord> cells) {
-    std::stable_sort(cells.begin(), cells.end(), [](const CellRecord& a, const CellRecord& b) {
-      return a.frame.x() < b.frame.x();
+    std::sort(cells.begin(), cells.end(), [](const CellRecord& a, const CellRecord& b) {
+      return order_in_rows(a, a.frame) < order_in_rows(b, b.frame);
     });
     return cells;
   }

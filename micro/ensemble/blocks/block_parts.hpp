@@ -144,8 +144,9 @@ struct BlockStepper<Real>::Parts {
   };
   std::vector<Scratch> scratch;
   std::vector<std::vector<std::size_t>> blocks_of_thread;
-  std::vector<std::vector<std::size_t>>
-      awaited;                  // per block: blocks of other threads, groups of copies
+  std::vector<std::size_t> member_of_block;       // whose list it is in
+  std::vector<std::vector<std::size_t>> awaited;  // per block: other blocks, with copies those of
+                                                  // other threads alone; groups of copies
   std::vector<Milestone> done;  // per block and group of copies: the step whose state is complete
 
   // Times count from step 0, and the offset grows by one step after the other: neither depends on
@@ -280,6 +281,7 @@ struct BlockStepper<Real>::Parts {
       offsets.push_back(offsets.back() + slide);
     }
   }
+  void share_leg(BlockStore<Real>& store, std::int64_t first, std::int64_t last);
   void run_leg(BlockStore<Real>& store, std::int64_t first, std::int64_t last);
   void step_member(BlockStore<Real>& store, std::int64_t step, int member);
 };

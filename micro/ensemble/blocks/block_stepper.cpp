@@ -73,8 +73,41 @@ void BlockStepper<Real>::Parts::step_member(BlockStore<Real>& store, std::int64_
   }
 }
 
-/// Advances from step `first` to `last`. A thread that fails lets go of those that wait for it; the
-/// others end at their next step.
+/// Advances from step `first` to `last`, without copies: whoever is free takes the next block.
+/// Every step begins half-way through the order of the step before, so that neighbours are done
+/// long before they are needed and threads hardly ever wait.
+template <class Real>
+void BlockStepper<Real>::Parts::share_leg(BlockStore<Real>& store, std::int64_t first,
+                                          std::int64_t last) {
+  const auto blocks = static_cast<std::int64_t>(store.blocks.size());
+  for (Milestone& each : done) each.set(first);
+  std::atomic<std::int64_t> next{0};
+  std::atomic<bool> failed{false};
+  team.run([&](int member) {
+    try {
+      while (!failed) {
+        const std::int64_t task = next.fetch_add(1);
+        if (task >= (last - first) * blocks) return;
+        const std::int64_t step = first + task / blocks;
+        const std::int64_t turn = task % blocks + (step % 2 != 0 ? blocks / 2 : 0);
+        const auto block = static_cast<std::size_t>(turn % blocks);
+        // Another thread may have taken the block before, and not be done with it.
+        done[block].wait_for(step);
+        for (const std::size_t other : awaited[block]) done[other].wait_for(step);
+        step_block(store, step, time_of(step), offset_of(step), block,
+                   lists[member_of_block[block]], scratch[static_cast<std::size_t>(member)]);
+        done[block].set(step + 1);
+      }
+    } catch (...) {
+      failed = true;
+      for (Milestone& each : done) each.set(last);
+      throw;
+    }
+  });
+}
+
+/// The same with copies of cells of other ranks: every thread has blocks of its own. A thread that
+/// fails lets go of those that wait for it; the others end at their next step.
 template <class Real>
 void BlockStepper<Real>::Parts::run_leg(BlockStore<Real>& store, std::int64_t first,
                                         std::int64_t last) {
@@ -190,7 +223,11 @@ StretchWatch BlockStepper<Real>::advance(BlockStore<Real>& store, std::int64_t s
     }
     const auto begin = Clock::now();
     p.set_offsets(step, step + leg);
-    p.run_leg(store, step, step + leg);
+    if (p.copies) {
+      p.run_leg(store, step, step + leg);
+    } else {
+      p.share_leg(store, step, step + leg);
+    }
     p.counters.step_seconds += seconds_since(begin);
     step += leg;
     p.strain += rate * dt * static_cast<double>(leg);

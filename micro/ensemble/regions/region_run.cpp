@@ -151,10 +151,13 @@ void RegionRun<Real>::deal(const std::vector<CellRecord>& cells, std::int64_t st
   for (const Message& message : messages_.exchange(std::move(outgoing))) {
     read_cells(message.bytes, own);
   }
-  // In the order of their places: neighbours share blocks. Numbers decide between equal places.
+  // Along the channel, so that few blocks see copies; without copies in rows.
+  const bool is_alone = messages_.size() == 1;
   std::sort(own.begin(), own.end(), [&](const CellRecord& a, const CellRecord& b) {
-    return std::tuple(home_position(a.frame, image_offset).x(), a.id) <
-           std::tuple(home_position(b.frame, image_offset).x(), b.id);
+    const Vector<2> at = home_position(a.frame, image_offset);
+    const Vector<2> other = home_position(b.frame, image_offset);
+    if (is_alone) return order_in_rows(a, at) < order_in_rows(b, other);
+    return std::tuple(at.x(), a.id) < std::tuple(other.x(), b.id);
   });
   std::size_t all = 0;
   for (const CellKind& kind : kinds_) all += kind.cells;
