@@ -39,7 +39,6 @@ template <class Real>
 void BlockStepper<Real>::Parts::order_blocks(const BlockStore<Real>& store) {
   const std::size_t blocks = store.blocks.size();
   awaited.assign(blocks, {});
-  member_of_block.resize(blocks);
   std::vector<unsigned char> is_awaited(blocks, 0);
   std::vector<unsigned char> is_at_copies(blocks, 0);
   for (const ContactList& list : wide_lists) {
@@ -52,7 +51,10 @@ void BlockStepper<Real>::Parts::order_blocks(const BlockStore<Real>& store) {
         if (other >= blocks) {
           awaited[b].push_back(other);
           is_at_copies[b] = 1;
-        } else if (copies ? other < first || other >= last : other != b) {
+        } else if (!copies && other != b) {
+          awaited[b].push_back(other);
+          if (other < first || other >= last) is_awaited[other] = 1;
+        } else if (other < first || other >= last) {
           awaited[b].push_back(other);
           is_awaited[other] = 1;
         }
@@ -67,8 +69,6 @@ void BlockStepper<Real>::Parts::order_blocks(const BlockStore<Real>& store) {
   // Blocks that other threads wait for come first, those that wait for other ranks last.
   for (std::size_t member = 0; member < blocks_of_thread.size(); ++member) {
     const auto [first, last] = blocks_of(blocks, member);
-    std::fill(member_of_block.begin() + static_cast<std::ptrdiff_t>(first),
-              member_of_block.begin() + static_cast<std::ptrdiff_t>(last), member);
     blocks_of_thread[member].clear();
     for (const int turn : {0, 1, 2}) {
       for (std::size_t b = first; b < last; ++b) {

@@ -144,9 +144,13 @@ struct BlockStepper<Real>::Parts {
   };
   std::vector<Scratch> scratch;
   std::vector<std::vector<std::size_t>> blocks_of_thread;
-  std::vector<std::size_t> member_of_block;       // whose list it is in
-  std::vector<std::vector<std::size_t>> awaited;  // per block: other blocks, with copies those of
-                                                  // other threads alone; groups of copies
+  struct alignas(64) Turn {
+    std::atomic<std::int64_t> next{0};
+  };
+  std::vector<Turn> turns;  // blocks of a thread that were begun in this leg, step after step
+  // Per block: all other blocks whose cells it sees; with copies those of other threads alone, and
+  // groups of copies.
+  std::vector<std::vector<std::size_t>> awaited;
   std::vector<Milestone> done;  // per block and group of copies: the step whose state is complete
 
   // Times count from step 0, and the offset grows by one step after the other: neither depends on
@@ -229,6 +233,7 @@ struct BlockStepper<Real>::Parts {
     lists.resize(scratch.size());
     wide_lists.resize(scratch.size());
     blocks_of_thread.resize(scratch.size());
+    turns = std::vector<Turn>(scratch.size());
   }
 
   /// Whether the memory is the motion in the last step.
@@ -252,7 +257,7 @@ struct BlockStepper<Real>::Parts {
                   std::size_t block, const ContactList& list, std::vector<Real>& shifts) const;
   void order_blocks(const BlockStore<Real>& store);
   bool is_between_walls(const Real* y, std::size_t nodes, double frame) const;
-  void centre(BlockStore<Real>& store, std::int64_t step);
+  void centre_block(BlockStore<Real>& store, std::int64_t step, std::size_t block);
   void set_flow(const BlockStore<Real>& store, std::int64_t step, double time, std::size_t block);
   void set_migration(const BlockStore<Real>& store, std::int64_t step, double time,
                      std::size_t block);

@@ -73,30 +73,33 @@ void BlockStepper<Real>::Parts::step_member(BlockStore<Real>& store, std::int64_
   }
 }
 
-/// Advances from step `first` to `last`, without copies: whoever is free takes the next block.
-/// Every step begins half-way through the order of the step before, so that neighbours are done
-/// long before they are needed and threads hardly ever wait.
+/// Advances from step `first` to `last`, without copies. A thread that is done with its own blocks
+/// takes over what others have not begun: their data are not at hand, but nobody waits.
 template <class Real>
 void BlockStepper<Real>::Parts::share_leg(BlockStore<Real>& store, std::int64_t first,
                                           std::int64_t last) {
-  const auto blocks = static_cast<std::int64_t>(store.blocks.size());
   for (Milestone& each : done) each.set(first);
-  std::atomic<std::int64_t> next{0};
+  for (Turn& turn : turns) turn.next = 0;
   std::atomic<bool> failed{false};
-  team.run([&](int member) {
+  team.run([&](int number) {
+    const auto member = static_cast<std::size_t>(number);
     try {
-      while (!failed) {
-        const std::int64_t task = next.fetch_add(1);
-        if (task >= (last - first) * blocks) return;
-        const std::int64_t step = first + task / blocks;
-        const std::int64_t turn = task % blocks + (step % 2 != 0 ? blocks / 2 : 0);
-        const auto block = static_cast<std::size_t>(turn % blocks);
-        // Another thread may have taken the block before, and not be done with it.
-        done[block].wait_for(step);
-        for (const std::size_t other : awaited[block]) done[other].wait_for(step);
-        step_block(store, step, time_of(step), offset_of(step), block,
-                   lists[member_of_block[block]], scratch[static_cast<std::size_t>(member)]);
-        done[block].set(step + 1);
+      for (std::size_t k = 0; k < turns.size(); ++k) {
+        const std::size_t owner = (member + k) % turns.size();
+        const std::vector<std::size_t>& blocks = blocks_of_thread[owner];
+        const std::int64_t count = static_cast<std::int64_t>(blocks.size());
+        while (!failed) {
+          const std::int64_t task = turns[owner].next.fetch_add(1);
+          if (task >= (last - first) * count) break;
+          const std::int64_t step = first + task / count;
+          const std::size_t block = blocks[static_cast<std::size_t>(task % count)];
+          // Another thread may have taken the block before, and not be done with it.
+          done[block].wait_for(step);
+          for (const std::size_t other : awaited[block]) done[other].wait_for(step);
+          step_block(store, step, time_of(step), offset_of(step), block, lists[owner],
+                     scratch[member]);
+          done[block].set(step + 1);
+        }
       }
     } catch (...) {
       failed = true;
@@ -189,16 +192,18 @@ StretchWatch BlockStepper<Real>::advance(BlockStore<Real>& store, std::int64_t s
   const std::int64_t interval = p.copies ? p.copies->interval : 1;
   StretchWatch watch;
   while (step < last && watch.finite) {
-    if (step % steps_between_centrings == 0) {
-      p.centre(store, step);
-      must_set_flow = true;
-    }
-    if (must_set_flow) {
-      for (std::size_t b = 0; b < store.blocks.size(); ++b) {
-        p.set_flow(store, step, p.time_of(step), b);
-        if (p.keeps_motion() && store.memory_is_new) p.expect_drift(store, b);
-        p.write_mirror(store, static_cast<std::size_t>(step % 2), b);
-      }
+    const bool must_centre = step % steps_between_centrings == 0;
+    if (must_centre || must_set_flow) {
+      p.team.run([&](int member) {
+        const auto [first, end] =
+            p.blocks_of(store.blocks.size(), static_cast<std::size_t>(member));
+        for (std::size_t b = first; b < end; ++b) {
+          if (must_centre) p.centre_block(store, step, b);
+          p.set_flow(store, step, p.time_of(step), b);
+          if (p.keeps_motion() && store.memory_is_new) p.expect_drift(store, b);
+          p.write_mirror(store, static_cast<std::size_t>(step % 2), b);
+        }
+      });
       must_set_flow = false;
     }
     if (!p.list_is_valid) p.build_list(store, step, p.offset_of(step));
