@@ -22,6 +22,10 @@ std::string quoted_integrator(const Settings& settings) {
 }
 
 void check_reference(const Settings& settings, bool force, FaultList& list) {
+  if (settings.text("micro.domain") == "geometry") {
+    for (const auto& [key, message] : feed_faults(settings)) list.add(key, message);
+    return;
+  }
   const auto on_vectors_alone = [&](const std::string& key, const std::string& what) {
     list.add(key, fmt::format("{} is known on vectors alone, and micro.integrator is {}; choose "
                               "another integrator in a channel",
@@ -39,9 +43,6 @@ void check_reference(const Settings& settings, bool force, FaultList& list) {
   if (settings.text("micro.domain") != "shear-box" &&
       settings.text("micro.flow.kind") != "poiseuille") {
     on_vectors_alone("micro.flow.kind", "\"" + settings.text("micro.flow.kind") + "\"");
-  }
-  if (settings.text("micro.domain") == "geometry") {
-    on_vectors_alone("micro.domain", "\"geometry\"");
   }
   if (settings.text("micro.domain") == "channel" && settings.boolean("output.nodes")) {
     on_vectors_alone("output.nodes", "true");

@@ -4,6 +4,7 @@ hemoscale_test(NAME ensemble_blocks_unit LABEL unit LIBRARIES hemoscale_micro SO
   unit/micro/block_explicit_kernel_test.cpp
   unit/micro/block_implicit_kernel_test.cpp
   unit/micro/block_pair_kernel_test.cpp
+  unit/micro/block_schedule_test.cpp
   unit/micro/block_threads_test.cpp)
 hemoscale_test(NAME ensemble_blocks_property LABEL property LIBRARIES hemoscale_micro SOURCES
   property/micro/block_bits_test.cpp

@@ -74,9 +74,10 @@ struct BlockEnsemble::Parts {
     return kinds;
   }
 
-  static std::vector<CellRecord> in_order(std::vector<CellRecord> cells) {
-    std::sort(cells.begin(), cells.end(), [](const CellRecord& a, const CellRecord& b) {
-      return order_in_rows(a, a.frame) < order_in_rows(b, b.frame);
+  static std::vector<CellRecord> in_order(const BlockSettings& s, std::vector<CellRecord> cells) {
+    const bool along = exceed_cache(s, cells.size());
+    std::sort(cells.begin(), cells.end(), [&](const CellRecord& a, const CellRecord& b) {
+      return order_of_cell(a, a.frame, along) < order_of_cell(b, b.frame, along);
     });
     return cells;
   }
@@ -90,7 +91,7 @@ struct BlockEnsemble::Parts {
                                          static_cast<CellId>(cells.size()));
       cells.insert(cells.end(), more.begin(), more.end());
     }
-    return {make_store<Real>(kinds, in_order(std::move(cells)), count_cells(initial),
+    return {make_store<Real>(kinds, in_order(s, std::move(cells)), count_cells(initial),
                              has_memory(s.integrator), 0),
             BlockStepper<Real>(s)};
   }
@@ -158,7 +159,7 @@ struct BlockEnsemble::Parts {
   void replace(std::vector<CellRecord> records) {
     for (CellKind& kind : kinds) kind.cells = 0;
     for (const CellRecord& r : records) ++kinds[static_cast<std::size_t>(r.kind)].cells;
-    const std::vector<CellRecord> ordered = in_order(std::move(records));
+    const std::vector<CellRecord> ordered = in_order(settings, std::move(records));
     std::visit(
         [&](auto& r) {
           using Store = std::decay_t<decltype(r.store)>;

@@ -39,6 +39,7 @@ template <class Real>
 void BlockStepper<Real>::Parts::order_blocks(const BlockStore<Real>& store) {
   const std::size_t blocks = store.blocks.size();
   awaited.assign(blocks, {});
+  member_of_block.resize(blocks);
   std::vector<unsigned char> is_awaited(blocks, 0);
   std::vector<unsigned char> is_at_copies(blocks, 0);
   for (const ContactList& list : wide_lists) {
@@ -66,9 +67,18 @@ void BlockStepper<Real>::Parts::order_blocks(const BlockStore<Real>& store) {
   if (copies) {
     for (const std::size_t b : *copies->sent_blocks) is_at_copies[b] = 1;
   }
+  spread = 0;
+  for (std::size_t b = 0; b < blocks && !copies; ++b) {
+    for (const std::size_t other : awaited[b]) {
+      const std::size_t apart = std::max(b, other) - std::min(b, other);
+      spread = std::max(spread, std::min(apart, blocks - apart));
+    }
+  }
   // Blocks that other threads wait for come first, those that wait for other ranks last.
   for (std::size_t member = 0; member < blocks_of_thread.size(); ++member) {
     const auto [first, last] = blocks_of(blocks, member);
+    std::fill(member_of_block.begin() + static_cast<std::ptrdiff_t>(first),
+              member_of_block.begin() + static_cast<std::ptrdiff_t>(last), member);
     blocks_of_thread[member].clear();
     for (const int turn : {0, 1, 2}) {
       for (std::size_t b = first; b < last; ++b) {

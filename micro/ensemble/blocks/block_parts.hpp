@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "micro/ensemble/blocks/block_schedule.hpp"
 #include "micro/ensemble/blocks/block_stepper.hpp"
 #include "micro/ensemble/blocks/cell_copies.hpp"
 #include "micro/ensemble/blocks/chebyshev_weights.hpp"
@@ -37,6 +38,12 @@ inline constexpr std::int64_t longest_growth = 2;
 
 // An even number, so that the state is in the same buffer again; soft modes need most.
 inline constexpr std::int64_t preparing_iterations = 100;
+
+// Tiles of every thread in the cache.
+inline constexpr std::size_t tiles_in_cache = 3;
+
+// Rounds of fewer steps are not worth the order.
+inline constexpr std::size_t least_round = 3;
 
 // Motion in a step before any is known, and where there is none. [um]
 inline constexpr double first_reach_per_step = 0.02;
@@ -145,9 +152,12 @@ struct BlockStepper<Real>::Parts {
   std::vector<Scratch> scratch;
   std::vector<std::vector<std::size_t>> blocks_of_thread;
   struct alignas(64) Turn {
-    std::atomic<std::int64_t> next{0};
+    std::atomic<std::size_t> next{0};
   };
-  std::vector<Turn> turns;  // blocks of a thread that were begun in this leg, step after step
+  std::vector<Turn> turns;                        // tasks of a thread that were begun in this leg
+  std::vector<std::vector<BlockTask>> schedules;  // per thread
+  std::vector<std::size_t> member_of_block;       // whose list it is in
+  std::size_t spread = 0;                         // [-] numbers between blocks that see each other
   // Per block: all other blocks whose cells it sees; with copies those of other threads alone, and
   // groups of copies.
   std::vector<std::vector<std::size_t>> awaited;
@@ -234,6 +244,7 @@ struct BlockStepper<Real>::Parts {
     wide_lists.resize(scratch.size());
     blocks_of_thread.resize(scratch.size());
     turns = std::vector<Turn>(scratch.size());
+    schedules.resize(scratch.size());
   }
 
   /// Whether the memory is the motion in the last step.
@@ -257,7 +268,7 @@ struct BlockStepper<Real>::Parts {
                   std::size_t block, const ContactList& list, std::vector<Real>& shifts) const;
   void order_blocks(const BlockStore<Real>& store);
   bool is_between_walls(const Real* y, std::size_t nodes, double frame) const;
-  void centre_block(BlockStore<Real>& store, std::int64_t step, std::size_t block);
+  void centre_block(BlockStore<Real>& store, std::int64_t step, std::size_t number);
   void set_flow(const BlockStore<Real>& store, std::int64_t step, double time, std::size_t block);
   void set_migration(const BlockStore<Real>& store, std::int64_t step, double time,
                      std::size_t block);
@@ -286,6 +297,8 @@ struct BlockStepper<Real>::Parts {
       offsets.push_back(offsets.back() + slide);
     }
   }
+  std::size_t bytes_of(const BlockStore<Real>& store) const;
+  void set_schedules(const BlockStore<Real>& store, std::size_t steps);
   void share_leg(BlockStore<Real>& store, std::int64_t first, std::int64_t last);
   void run_leg(BlockStore<Real>& store, std::int64_t first, std::int64_t last);
   void step_member(BlockStore<Real>& store, std::int64_t step, int member);

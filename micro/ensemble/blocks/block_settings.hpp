@@ -63,7 +63,12 @@ struct BlockSettings {
   LateralMigration migration;
   double skin = 0.4e-6;  // [m] by which contacts are searched beyond the cutoff; lists are pruned
                          // to a part of it between searches; no result depends on it
+  std::size_t cache = 12U << 20U;  // [bytes] of data beyond which blocks are advanced in tiles that
+                                   // stay in the cache; no result depends on it
   int threads = 1;
 };
+
+/// Whether the data of so many cells exceed the cache, at some 40 bytes for each node.
+bool exceed_cache(const BlockSettings& settings, std::size_t cells);
 
 }  // namespace hemoscale::micro::blocks

@@ -73,11 +73,51 @@ void BlockStepper<Real>::Parts::step_member(BlockStore<Real>& store, std::int64_
   }
 }
 
-/// Advances from step `first` to `last`, without copies. A thread that is done with its own blocks
+/// What is read and written in a step.
+template <class Real>
+std::size_t BlockStepper<Real>::Parts::bytes_of(const BlockStore<Real>& store) const {
+  std::size_t entries = 0;
+  for (const ContactList& list : lists) entries += list.first_entry.back();
+  return sizeof(Real) * (store.x.size() + store.y.size() + store.memory_x.size() +
+                         store.memory_y.size() + store.mirror[0].size() + store.mirror[1].size()) +
+         sizeof(ClusterEntry) * entries;
+}
+
+/// Who advances which block when, for a leg without copies.
+template <class Real>
+void BlockStepper<Real>::Parts::set_schedules(const BlockStore<Real>& store, std::size_t steps) {
+  const std::size_t blocks = store.blocks.size();
+  const std::size_t bytes = bytes_of(store);
+  std::vector<ScheduleShape> shapes;
+  std::size_t round = bytes > settings.cache ? steps : 0;
+  for (std::size_t member = 0; member < schedules.size(); ++member) {
+    const auto [first, last] = blocks_of(blocks, member);
+    shapes.push_back({first, last, blocks, spread,
+                      blocks * (settings.cache / tiles_in_cache) / std::max(bytes, blocks)});
+    round = std::min(round, steps_of_round(shapes.back()));
+  }
+  if (round >= least_round) ++counters.tiled_legs;
+  for (std::size_t member = 0; member < schedules.size(); ++member) {
+    std::vector<BlockTask>& tasks = schedules[member];
+    if (round >= least_round) {
+      tasks = tiled_schedule(shapes[member], steps, round);
+      continue;
+    }
+    tasks.clear();
+    for (std::size_t step = 0; step < steps; ++step) {
+      for (const std::size_t block : blocks_of_thread[member]) {
+        tasks.push_back({static_cast<std::uint32_t>(block), static_cast<std::uint32_t>(step)});
+      }
+    }
+  }
+}
+
+/// Advances from step `first` to `last`, without copies. A thread that is done with its own tasks
 /// takes over what others have not begun: their data are not at hand, but nobody waits.
 template <class Real>
 void BlockStepper<Real>::Parts::share_leg(BlockStore<Real>& store, std::int64_t first,
                                           std::int64_t last) {
+  set_schedules(store, static_cast<std::size_t>(last - first));
   for (Milestone& each : done) each.set(first);
   for (Turn& turn : turns) turn.next = 0;
   std::atomic<bool> failed{false};
@@ -86,18 +126,17 @@ void BlockStepper<Real>::Parts::share_leg(BlockStore<Real>& store, std::int64_t 
     try {
       for (std::size_t k = 0; k < turns.size(); ++k) {
         const std::size_t owner = (member + k) % turns.size();
-        const std::vector<std::size_t>& blocks = blocks_of_thread[owner];
-        const std::int64_t count = static_cast<std::int64_t>(blocks.size());
+        const std::vector<BlockTask>& tasks = schedules[owner];
         while (!failed) {
-          const std::int64_t task = turns[owner].next.fetch_add(1);
-          if (task >= (last - first) * count) break;
-          const std::int64_t step = first + task / count;
-          const std::size_t block = blocks[static_cast<std::size_t>(task % count)];
+          const std::size_t turn = turns[owner].next.fetch_add(1);
+          if (turn >= tasks.size()) break;
+          const std::int64_t step = first + tasks[turn].step;
+          const std::size_t block = tasks[turn].block;
           // Another thread may have taken the block before, and not be done with it.
           done[block].wait_for(step);
           for (const std::size_t other : awaited[block]) done[other].wait_for(step);
-          step_block(store, step, time_of(step), offset_of(step), block, lists[owner],
-                     scratch[member]);
+          step_block(store, step, time_of(step), offset_of(step), block,
+                     lists[member_of_block[block]], scratch[member]);
           done[block].set(step + 1);
         }
       }
@@ -162,6 +201,10 @@ void BlockStepper<Real>::keep_copies(CopyUpdates updates) {
 template <class Real>
 const StepCounters& BlockStepper<Real>::counters() const {
   return parts_->counters;
+}
+template <class Real>
+std::size_t BlockStepper<Real>::spread() const {
+  return parts_->spread;
 }
 template <class Real>
 const BlockSettings& BlockStepper<Real>::settings() const {

@@ -25,6 +25,7 @@ struct StretchWatch {
 struct StepCounters {
   std::int64_t rebuilds = 0;
   std::int64_t late_rebuilds = 0;  // a node may have moved further than the skin before one
+  std::int64_t tiled_legs = 0;     // stretches of steps that were taken in tiles
   double list_seconds = 0;
   double step_seconds = 0;
 };
@@ -56,6 +57,8 @@ class BlockStepper {
 
   const StepCounters& counters() const;
   const BlockSettings& settings() const;
+  /// How far apart, by number, blocks lie that see each other's cells. [-]
+  std::size_t spread() const;
   /// The lists in use, one per thread.
   const std::vector<ContactList>& contacts() const;
 

@@ -18,9 +18,9 @@ bool BlockStepper<Real>::Parts::is_between_walls(const Real* y, std::size_t node
 
 template <class Real>
 void BlockStepper<Real>::Parts::centre_block(BlockStore<Real>& store, std::int64_t step,
-                                             std::size_t block) {
+                                             std::size_t number) {
   const auto parity = static_cast<std::size_t>(step % 2);
-  for (std::size_t place = block * width; place < (block + 1) * width; ++place) {
+  for (std::size_t place = number * width; place < (number + 1) * width; ++place) {
     if (store.ids[place] == no_cell) continue;
     const auto& block = store.blocks[place / width];
     const std::size_t n = store.nodes_of_block(place / width);

@@ -80,15 +80,15 @@ struct CellRecord {
   std::optional<double> area = std::nullopt;  // [um^2] as the kernels summed it; else summed anew
 };
 
-/// By what cells are ordered before they are put into blocks: rows along the channel, which the
-/// flow carries along together, so that the neighbours of a block remain few; numbers decide
+/// By what cells are ordered before they are put into blocks. Few of them: rows along the channel,
+/// which the flow carries along together, so that the neighbours of a block remain few. Many:
+/// along the channel, so that pieces of it are advanced while they are in the cache. Numbers decide
 /// between equal places.
-inline std::tuple<double, double, CellId> order_in_rows(const CellRecord& cell,
-                                                        const Vector<2>& place) {
+inline std::tuple<double, double, CellId> order_of_cell(const CellRecord& cell,
+                                                        const Vector<2>& place, bool along) {
   constexpr double row = 4;  // [um] somewhat more than the thickness of a red cell
-  return {std::floor(place.y() / row), place.x(), cell.id};
+  return {along ? 0 : std::floor(place.y() / row), place.x(), cell.id};
 }
-
 /// Puts cells into blocks, kind after kind in the given order, and fills mirror and frames of the
 /// buffer `parity`. `ids` counts all cells of the ensemble, on whichever rank.
 template <class Real>

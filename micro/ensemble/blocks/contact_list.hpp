@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "micro/ensemble/blocks/aligned_array.hpp"
 #include "micro/ensemble/blocks/block_store.hpp"
 #include "micro/ensemble/blocks/kernel_arguments.hpp"
 
@@ -36,7 +37,7 @@ struct ContactList {
   std::vector<std::size_t> first_active;  // per block and one more
   std::vector<ActiveCluster> active;      // `end` counts from first_entry of the block
   std::vector<std::size_t> first_entry;   // per block and one more
-  std::vector<ClusterEntry> entries;      // `shift` counts from the first neighbour of the block
+  AlignedArray<ClusterEntry> entries;     // `shift` counts from the first neighbour of the block
 };
 
 /// Search of contacts in three stages, of which the first and the last may be shared by threads:

@@ -9,6 +9,12 @@
 #include "micro/ensemble/blocks/block_limits.hpp"
 
 namespace hemoscale::micro::blocks {
+
+bool exceed_cache(const BlockSettings& settings, std::size_t cells) {
+  constexpr std::size_t bytes_per_node = 40;
+  return cells * static_cast<std::size_t>(settings.kinds.front().mesh.nodes) * bytes_per_node >
+         settings.cache;
+}
 namespace {
 
 using Fault = std::function<void(const std::string&)>;

@@ -17,6 +17,8 @@ using namespace blocks;
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr std::int64_t steps_between_looks = 256;  // at how blocks have been sheared
 double seconds_since(Clock::time_point t) {
   return std::chrono::duration<double>(Clock::now() - t).count();
 }
@@ -151,13 +153,11 @@ void RegionRun<Real>::deal(const std::vector<CellRecord>& cells, std::int64_t st
   for (const Message& message : messages_.exchange(std::move(outgoing))) {
     read_cells(message.bytes, own);
   }
-  // Along the channel, so that few blocks see copies; without copies in rows.
-  const bool is_alone = messages_.size() == 1;
+  // With copies along the channel, so that few blocks see them.
+  const bool along = messages_.size() > 1 || exceed_cache(settings_, own.size());
   std::sort(own.begin(), own.end(), [&](const CellRecord& a, const CellRecord& b) {
-    const Vector<2> at = home_position(a.frame, image_offset);
-    const Vector<2> other = home_position(b.frame, image_offset);
-    if (is_alone) return order_in_rows(a, at) < order_in_rows(b, other);
-    return std::tuple(at.x(), a.id) < std::tuple(other.x(), b.id);
+    return order_of_cell(a, home_position(a.frame, image_offset), along) <
+           order_of_cell(b, home_position(b.frame, image_offset), along);
   });
   std::size_t all = 0;
   for (const CellKind& kind : kinds_) all += kind.cells;
@@ -167,6 +167,7 @@ void RegionRun<Real>::deal(const std::vector<CellRecord>& cells, std::int64_t st
   store_.memory_is_new = messages_.largest(!own.empty() && store_.memory_is_new ? 1 : 0) > 0;
   stepper_.invalidate();
   copies_when_dealt_ = -1;
+  spread_when_dealt_ = 0;
   must_deal_ = false;
   ++counters_.migrations;
   counters_.migration_seconds += seconds_since(begin);
@@ -196,13 +197,33 @@ SharedWatch RegionRun<Real>::join(const SharedWatch& own) {
 template <class Real>
 StretchWatch RegionRun<Real>::advance(std::int64_t step, std::int64_t count, double start,
                                       double& image_offset) {
-  if (must_deal_) deal(cells(step), step, image_offset);
-  first_step_ = step;
-  image_offset_ = image_offset;
   slide_ = settings_.periodic_y ? settings_.time_step * settings_.height *
                                       settings_.flow->at({0, 0}, 0).gradient(0, 1)
                                 : 0;
-  return stepper_.advance(store_, step, count, start, image_offset);
+  // Shear carries the cells of a block apart. One rank with many of them deals them into blocks
+  // anew; several do so when copies have become many.
+  const bool looks = messages_.size() == 1 && exceed_cache(settings_, store_.places());
+  StretchWatch all;
+  for (std::int64_t left = count; left > 0 && all.finite;) {
+    const std::int64_t part = looks ? std::min(left, steps_between_looks) : left;
+    if (must_deal_) deal(cells(step), step, image_offset);
+    first_step_ = step;
+    image_offset_ = image_offset;
+    const StretchWatch watch = stepper_.advance(store_, step, part, start, image_offset);
+    if (watch.largest_stretch > all.largest_stretch ||
+        watch.smallest_stretch < all.smallest_stretch || !watch.finite) {
+      all.worst_cell = watch.worst_cell;
+    }
+    all.largest_stretch = std::max(all.largest_stretch, watch.largest_stretch);
+    all.smallest_stretch = std::min(all.smallest_stretch, watch.smallest_stretch);
+    all.finite = watch.finite;
+    step += part;
+    left -= part;
+    if (!looks) continue;
+    if (spread_when_dealt_ == 0) spread_when_dealt_ = stepper_.spread();
+    must_deal_ = stepper_.spread() > 2 * spread_when_dealt_;
+  }
+  return all;
 }
 
 template <class Real>

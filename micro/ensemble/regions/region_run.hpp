@@ -57,6 +57,7 @@ class RegionRun {
   std::unique_ptr<WatchReduction> reduction_;  // of the watches of all ranks
   Vector<2> middle_ = Vector<2>::Zero();       // [um] of the own region
   std::int64_t copies_when_dealt_ = -1;        // of all ranks; -1: not counted since
+  std::size_t spread_when_dealt_ = 0;          // [-] of the blocks, see BlockStepper
   bool must_deal_ = false;
   double image_offset_ = 0;  // [m] at first_step_
   double slide_ = 0;         // [m] in a step

@@ -79,6 +79,29 @@ TEST_P(BlockBits, do_not_depend_on_the_number_of_threads) {
   }
 }
 
+// Blocks that are taken several steps ahead, tile after tile.
+TEST_P(BlockBits, do_not_depend_on_the_tiles) {
+  BlockCase c = test::crowded_channel({.columns = 400});
+  c.settings.kinds.pop_back();
+  c.initial.pop_back();
+  if (GetParam().make == swinging) {
+    c.settings.flow = std::make_shared<SwingingFlow>();
+    c.initial.front().time = 0.3;
+  }
+  test::set_integrator(c.settings, GetParam().integrator);
+  const auto run_with = [&](std::size_t cache, int threads, bool is_tiled) {
+    c.settings.cache = cache;
+    c.settings.threads = threads;
+    BlockEnsemble ensemble = c.make(GetParam().precision);
+    ensemble.advance(40);
+    EXPECT_EQ(ensemble.counters().tiled_legs > 0, is_tiled);
+    return ensemble.snapshot();
+  };
+  const Snapshot usual = run_with(1U << 30U, 1, false);
+  const std::size_t cache = GetParam().precision == Precision::single ? 3000000 : 6000000;
+  for (const int threads : {1, 2, 3}) expect_same_bits(run_with(cache, threads, true), usual);
+}
+
 TEST_P(BlockBits, do_not_depend_on_the_skin_of_the_list) {
   BlockCase c = fresh();
   const BlockEnsemble usual = run(c);

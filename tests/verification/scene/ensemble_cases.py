@@ -25,6 +25,29 @@ class EnsembleCases(EnsembleTest):
         self.run_figures(lasting(text, "0.2 ms", "0.1 ms"), "--force")
         self.assertIn("forced", " ".join(summary(self.folder / "results")["warnings"]))
 
+    def test_distance_from_the_nodes_of_another_run(self):
+        name = "distance of the nodes from the reference"
+        self.run_figures(CHANNEL + "nodes = true\n")
+        nodes = self.folder / "results" / "nodes.csv"
+        kept = self.folder / "kept.csv"
+        nodes.rename(kept)
+        text = CHANNEL + 'reference_nodes = "../kept.csv"\n'
+        self.assertEqual(self.run_figures(text)[name], 0)
+        # A tenth of the step: the error of the step, far below a cell and far above rounding.
+        seen = self.run_figures(with_micro(text, 'time_step = "2 us"'))
+        self.assertGreater(seen[name], 1e-13)
+        self.assertLess(seen[name], 1e-8)
+        # Every node 3 um to the right.
+        lines = kept.read_text().splitlines()
+        moved = [line.split(",") for line in lines[1:]]
+        kept.write_text("\n".join([lines[0], *(f"{c},{float(x) + 3e-6},{y}" for c, x, y in moved)]) + "\n")
+        self.assertAlmostEqual(self.run_figures(text)[name], 3e-6, delta=1e-12)
+        kept.write_text("\n".join(lines[:-1]) + "\n")
+        result = self.hemoscale("run", self.write_case(text), "--results", self.folder / "results")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("output.reference_nodes", result.stderr)
+        self.assertIn("479 rows", result.stderr)
+
     def test_migration_moves_cells_and_is_named(self):
         still = self.run_figures(lasting(CHANNEL, "0.2 s", "0.1 s"))
         name = "mean square distance of the cells from the axis"
