@@ -131,9 +131,15 @@ void BlockStepper<Real>::Parts::build_list(const BlockStore<Real>& store, std::i
   prune_lists(store, step, image_offset);
 }
 
+/// With copies of cells of other ranks lists are pruned when contacts are searched for and at no
+/// other time, because copies are not known well enough between exchanges: one range for both. [um]
+template <class Real>
+double BlockStepper<Real>::Parts::wide_range() const {
+  return contact_cutoff + (copies ? share_with_copies : 1) * settings.skin / micrometre;
+}
+
 /// Lists are searched for with the whole skin and pruned, far oftener, to a part of it: the search
-/// looks at boxes of clusters, pruning at the nodes. With copies of cells of other ranks there is
-/// no part: they are not known well enough between exchanges to prune by them. [um]
+/// looks at boxes of clusters, pruning at the nodes. [um]
 template <class Real>
 double BlockStepper<Real>::Parts::inner_range() const {
   return copies ? wide_range() : contact_cutoff + inner_share * settings.skin / micrometre;

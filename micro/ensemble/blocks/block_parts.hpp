@@ -30,6 +30,9 @@ inline constexpr std::int64_t longest_leg = 64;
 // The part of the skin that is left to lists when they are pruned.
 inline constexpr double inner_share = 0.25;
 
+// The part of the skin by which contacts are searched for where lists are not pruned.
+inline constexpr double share_with_copies = 0.4;
+
 // The motion that is expected of the next leg, over that of the last: contacts may begin. It comes
 // in bursts, which are not forgotten at once, and a leg is not much longer than the one before.
 inline constexpr double caution = 1.5;
@@ -280,7 +283,7 @@ struct BlockStepper<Real>::Parts {
   void watch_block(const BlockStore<Real>& store, std::size_t block);
   SharedWatch watch_cells(const BlockStore<Real>& store) const;
   double inner_range() const;
-  double wide_range() const { return contact_cutoff + settings.skin / micrometre; }
+  double wide_range() const;
   double inner_reach(const SharedWatch& watch) const;
   double wide_reach(const SharedWatch& watch) const;
   double time_of(std::int64_t step) const {
