@@ -121,6 +121,16 @@ class Observation {
   std::vector<std::unique_ptr<micro::EnsembleObserver>> observers_;
 };
 
+/// Threads of a rank. With fewer nodes each, waiting for each other takes longer than their work,
+/// most of all on a machine that others use too.
+int useful_threads(const Settings& settings, int ranks) {
+  constexpr std::int64_t nodes_per_thread = 15000;
+  const std::int64_t nodes = settings.integer("micro.cells") * settings.integer("micro.nodes");
+  const std::int64_t most = available_threads() / ranks;
+  return static_cast<int>(std::clamp<std::int64_t>(nodes / nodes_per_thread / ranks, 1,
+                                                   std::max<std::int64_t>(1, most)));
+}
+
 std::string observer_slot(std::size_t kind) {
   return fmt::format("observer-{}", kind);
 }
@@ -144,7 +154,7 @@ void run_ensemble(const PreparedRun& run, const micro::Communicator& communicato
   const bool is_root = communicator.is_root();
   Timings timings;
   Summary summary;
-  const int threads = std::max(1, available_threads() / std::max(1, communicator.size()));
+  const int threads = useful_threads(settings, communicator.size());
   const BlockScene scene = build_blocks(settings, threads, run.force, run.case_folder, run.results);
   const double dt = scene.settings.time_step;
   std::vector<micro::EnsembleState> initial;
