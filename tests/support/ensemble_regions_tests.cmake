@@ -1,6 +1,7 @@
 # Ensembles spread over ranks.
 hemoscale_test(NAME ensemble_regions_unit LABEL unit LIBRARIES hemoscale_micro SOURCES
   unit/ensemble_regions/copies_test.cpp
+  unit/ensemble_regions/many_cells_test.cpp
   unit/ensemble_regions/region_grid_test.cpp)
 
 add_executable(ensemble_regions_mpi mpi/ensemble_regions/rank_messages_test.cpp
