@@ -128,6 +128,8 @@ void File::write(const std::string& name, hid_t file_type, hid_t memory_type,
             action),
       H5Sclose);
   const Handle properties(check(H5Pcreate(H5P_DATASET_CREATE), path_, action), H5Pclose);
+  // Same content, same file: no clock in it.
+  check(H5Pset_obj_track_times(properties.id(), false), path_, action);
   if (is_checked && !is_empty) {
     check(H5Pset_chunk(properties.id(), static_cast<int>(extent.size()), extent.data()), path_,
           action);

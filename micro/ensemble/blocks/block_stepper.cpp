@@ -92,8 +92,9 @@ void BlockStepper<Real>::Parts::set_schedules(const BlockStore<Real>& store, std
   std::size_t round = bytes > settings.cache ? steps : 0;
   for (std::size_t member = 0; member < schedules.size(); ++member) {
     const auto [first, last] = blocks_of(blocks, member);
-    shapes.push_back({first, last, blocks, spread,
-                      blocks * (settings.cache / tiles_in_cache) / std::max(bytes, blocks)});
+    shapes.push_back(
+        {first, last, blocks, spread,
+         blocks * (settings.cache / tiles_in_cache) / std::max<std::size_t>(bytes, 1)});
     round = std::min(round, steps_of_round(shapes.back()));
   }
   if (round >= least_round) ++counters.tiled_legs;

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "micro/parallel/thread_team.hpp"
+#include "tests/support/micro/block_runs.hpp"
 
 namespace hemoscale::micro {
 namespace {
@@ -152,6 +153,22 @@ TEST(Milestone, those_who_wait_sleep) {
   std::this_thread::sleep_for(100ms);
   for (const double seconds : used) EXPECT_LT(seconds, 0.02);
   EXPECT_LT(cpu_seconds(CLOCK_PROCESS_CPUTIME_ID) - before, 0.06);
+}
+
+// A vessel that is fed is empty at first.
+TEST(BlockEnsembleWithoutCells, advances) {
+  test::BlockCase c = test::lonely_cell_in_channel();
+  EnsembleState& none = c.initial.front();
+  none.cells = 0;
+  none.x.clear();
+  none.y.clear();
+  for (const int threads : {1, 2}) {
+    c.settings.threads = threads;
+    BlockEnsemble ensemble = c.make(Precision::single);
+    ensemble.advance(100);
+    EXPECT_EQ(ensemble.step(), 100);
+    EXPECT_TRUE(ensemble.states().front().x.empty());
+  }
 }
 
 }  // namespace

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <thread>
 
 #include "tests/unit/results/scratch_folder.hpp"
 
@@ -85,8 +87,10 @@ TEST(Checkpoint, same_content_gives_the_same_file) {
     std::ifstream file(path, std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(file), {});
   };
-  EXPECT_EQ(content(write_checkpoint(folder / "a", checkpoint_of(1))),
-            content(write_checkpoint(folder / "b", checkpoint_of(1))));
+  const std::string first = content(write_checkpoint(folder / "a", checkpoint_of(1)));
+  // Not a second later either.
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  EXPECT_EQ(first, content(write_checkpoint(folder / "b", checkpoint_of(1))));
 }
 
 TEST(Checkpoint, the_last_two_are_kept_and_an_abandoned_future_is_not) {
