@@ -10,6 +10,7 @@
 
 #include "micro/ensemble/blocks/block_limits.hpp"
 #include "micro/ensemble/blocks/settings_faults.hpp"
+#include "micro/ensemble/blocks/snapshot_arrays.hpp"
 #include "micro/error.hpp"
 
 namespace hemoscale::micro {
@@ -335,40 +336,21 @@ Snapshot BlockEnsemble::snapshot() const {
   s.reals["blocks.time"] = {p.start, p.image_offset};
   auto& ids = s.integers["blocks.ids"];
   auto& kinds = s.integers["blocks.kinds"];
-  auto& frames = s.reals["blocks.frames"];
-  auto& area = s.reals["blocks.area"];
-  auto& x = s.reals["blocks.x"];
-  auto& y = s.reals["blocks.y"];
-  auto& memory_x = s.reals["blocks.memory_x"];
-  auto& memory_y = s.reals["blocks.memory_y"];
+  std::vector<CellRecord> cells;
   for (std::size_t id = 0; id < p.places().size(); ++id) {
     if (p.places()[id] < 0) continue;
-    const CellRecord cell = p.record(static_cast<CellId>(id));
-    ids.push_back(cell.id);
-    kinds.push_back(cell.kind);
-    frames.insert(frames.end(), {cell.frame.x(), cell.frame.y()});
-    area.push_back(*cell.area);
-    x.insert(x.end(), cell.x.begin(), cell.x.end());
-    y.insert(y.end(), cell.y.begin(), cell.y.end());
-    memory_x.insert(memory_x.end(), cell.memory_x.begin(), cell.memory_x.end());
-    memory_y.insert(memory_y.end(), cell.memory_y.begin(), cell.memory_y.end());
+    cells.push_back(p.record(static_cast<CellId>(id)));
+    ids.push_back(cells.back().id);
+    kinds.push_back(cells.back().kind);
   }
+  set_arrays(s, cells);
   return s;
 }
 
 void BlockEnsemble::restore(const Snapshot& snapshot) {
   Parts& p = *parts_;
   const auto reals = [&](const char* name, std::size_t size) -> const std::vector<double>& {
-    const auto array = snapshot.reals.find(name);
-    const bool is_there = array != snapshot.reals.end() && array->second.size() == size;
-    if (!is_there || !std::all_of(array->second.begin(), array->second.end(),
-                                  [](double v) { return std::isfinite(v); })) {
-      throw ParameterError(fmt::format(
-          "snapshot: no {} finite numbers '{}'; one of an ensemble with the same parameters is "
-          "needed; restore it into the kind of model that wrote it",
-          size, name));
-    }
-    return array->second;
+    return finite_reals(snapshot, name, size);
   };
   const auto integers = [&](const char* name) -> const std::vector<std::int64_t>& {
     static const std::vector<std::int64_t> none;

@@ -1,11 +1,6 @@
 #include "micro/ensemble/regions/cell_snapshot.hpp"
 
-#include <fmt/core.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-
+#include "micro/ensemble/blocks/snapshot_arrays.hpp"
 #include "micro/error.hpp"
 
 namespace hemoscale::micro::regions {
@@ -13,45 +8,15 @@ namespace hemoscale::micro::regions {
 using blocks::CellId;
 using blocks::CellKind;
 using blocks::CellRecord;
-
-namespace {
-
-const std::vector<double>& reals_of(const Snapshot& snapshot, const std::string& name,
-                                    std::size_t size) {
-  const auto found = snapshot.reals.find(name);
-  const bool fits = found != snapshot.reals.end() && found->second.size() == size;
-  if (!fits || !std::all_of(found->second.begin(), found->second.end(),
-                            [](double v) { return std::isfinite(v); })) {
-    throw ParameterError(fmt::format(
-        "snapshot: no {} finite numbers '{}'; one of an ensemble with the same parameters is "
-        "needed; restore it into the kind of model that wrote it",
-        size, name));
-  }
-  return found->second;
-}
-
-}  // namespace
+using blocks::finite_reals;
 
 Snapshot to_snapshot(const std::vector<CellRecord>& cells, const SnapshotClock& clock) {
   Snapshot s;
   s.integers["blocks.step"] = {clock.step};
   s.reals["blocks.time"] = {clock.start, clock.image_offset};
-  auto& frames = s.reals["blocks.frames"];
-  auto& area = s.reals["blocks.area"];
-  auto& x = s.reals["blocks.x"];
-  auto& y = s.reals["blocks.y"];
-  auto& memory_x = s.reals["blocks.memory_x"];
-  auto& memory_y = s.reals["blocks.memory_y"];
+  blocks::set_arrays(s, cells);
   auto& nodes = s.integers["blocks.nodes"];
-  for (const CellRecord& cell : cells) {
-    frames.insert(frames.end(), {cell.frame.x(), cell.frame.y()});
-    area.push_back(*cell.area);
-    x.insert(x.end(), cell.x.begin(), cell.x.end());
-    y.insert(y.end(), cell.y.begin(), cell.y.end());
-    memory_x.insert(memory_x.end(), cell.memory_x.begin(), cell.memory_x.end());
-    memory_y.insert(memory_y.end(), cell.memory_y.begin(), cell.memory_y.end());
-    nodes.push_back(static_cast<std::int64_t>(cell.x.size()));
-  }
+  for (const CellRecord& cell : cells) nodes.push_back(static_cast<std::int64_t>(cell.x.size()));
   return s;
 }
 
@@ -66,9 +31,9 @@ std::vector<CellRecord> from_snapshot(const Snapshot& snapshot, const std::vecto
     values += kinds[kind].cells * static_cast<std::size_t>(kinds[kind].nodes);
   }
   const std::size_t cells = kind_of_cell.size();
-  const auto& frames = reals_of(snapshot, "blocks.frames", 2 * cells);
-  const auto& area = reals_of(snapshot, "blocks.area", cells);
-  const auto& time = reals_of(snapshot, "blocks.time", 2);
+  const auto& frames = finite_reals(snapshot, "blocks.frames", 2 * cells);
+  const auto& area = finite_reals(snapshot, "blocks.area", cells);
+  const auto& time = finite_reals(snapshot, "blocks.time", 2);
   const auto step = snapshot.integers.find("blocks.step");
   const auto nodes = snapshot.integers.find("blocks.nodes");
   if (step == snapshot.integers.end() || step->second.size() != 1 || step->second.front() < 0 ||
@@ -80,9 +45,9 @@ std::vector<CellRecord> from_snapshot(const Snapshot& snapshot, const std::vecto
   const auto memory = snapshot.reals.find("blocks.memory_x");
   const bool has_memory = memory != snapshot.reals.end() && !memory->second.empty();
   const std::vector<double>* const from[4] = {
-      &reals_of(snapshot, "blocks.x", values), &reals_of(snapshot, "blocks.y", values),
-      &reals_of(snapshot, "blocks.memory_x", has_memory ? values : 0),
-      &reals_of(snapshot, "blocks.memory_y", has_memory ? values : 0)};
+      &finite_reals(snapshot, "blocks.x", values), &finite_reals(snapshot, "blocks.y", values),
+      &finite_reals(snapshot, "blocks.memory_x", has_memory ? values : 0),
+      &finite_reals(snapshot, "blocks.memory_y", has_memory ? values : 0)};
   clock = {step->second.front(), time[0], time[1]};
   std::vector<CellRecord> records(cells);
   std::size_t first = 0;
